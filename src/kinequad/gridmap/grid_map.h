@@ -1,0 +1,68 @@
+#pragma once
+
+#include <vector>
+
+#include "kinequad/core/types.h"
+#include "kinequad/mesh/topology.h"
+
+namespace kinequad {
+
+/// A triangulation that refines an input mesh: every one of its triangles lies in one input triangle.
+struct RefinedMesh {
+    Triangles F;              ///< m' x 3
+    int vertex_count = 0;     ///< n'; the first n are the input's vertices
+    std::vector<int> parent;  ///< m': input triangle that holds a triangle
+    Positions barycentric;    ///< 3m' x 3: row 3t+k, corner k of triangle t in its parent's barycentric
+                              ///< coordinates (exact at input vertices)
+};
+
+/// An integer-grid map: (u, v) at every corner of a refined mesh, so that each triangle is mapped with
+/// positive area and crossing an edge is a quarter-turn rotation plus an integer translation.
+///
+/// Coordinates are fixed-point numbers in units of 2^-`fraction_bits` of the grid, so that transition
+/// functions hold to the last bit and orientation tests are exact in 128-bit integers.
+struct GridMap {
+    static constexpr int fraction_bits = 30;
+    static constexpr std::int64_t one = std::int64_t{1} << fraction_bits;
+
+    /// A point of the parameter plane in fixed-point units.
+    struct Coordinate {
+        std::int64_t u = 0;
+        std::int64_t v = 0;
+        bool operator==(const Coordinate&) const = default;
+    };
+    /// `z -> i^rotation z + (u, v)`; the translation is a whole number of grid cells.
+    struct Transition {
+        int rotation = 0;  ///< quarter turns counter-clockwise, 0..3
+        Coordinate translation;
+        Coordinate operator()(Coordinate z) const;
+        bool operator==(const Transition&) const = default;
+    };
+
+    RefinedMesh mesh;
+    Topology topology;                    ///< of `mesh`
+    std::vector<Coordinate> corner;       ///< 3m': coordinates of corner k of triangle t at 3t+k
+    std::vector<Transition> transition;   ///< 3m': of half-edge h, from its triangle's chart to the chart
+                                          ///< across it; identity on the boundary
+    Eigen::VectorXi index;                ///< n': singularity index in quarters
+};
+
+/// The coordinate turned counter-clockwise by `quarters` quarter turns.
+GridMap::Coordinate rotate(GridMap::Coordinate z, int quarters);
+
+/// What `verify_grid_map` counts; a valid map has zeros everywhere.
+struct GridMapReport {
+    int flipped_triangles = 0;        ///< triangles whose image has no positive area
+    int broken_transitions = 0;       ///< edges whose two sides do not match under the transition
+    int fractional_translations = 0;  ///< half-edges whose translation is not a whole number of cells
+    int fractional_singularities = 0; ///< singular vertices and boundary corners off the integer grid
+    int wrong_cone_angles = 0;        ///< vertices whose angle sum in the map is not (4 - index) quarters
+                                      ///< (on the boundary (2 - index) quarters)
+    int unaligned_boundary_edges = 0; ///< boundary edges not on an integer line
+    bool valid() const;
+};
+
+/// Checks every condition of an integer-grid map exactly. docs/gridmap.md
+GridMapReport verify_grid_map(const GridMap& map);
+
+}  // namespace kinequad

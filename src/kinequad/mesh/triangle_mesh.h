@@ -1,0 +1,26 @@
+#pragma once
+
+#include "kinequad/core/types.h"
+
+namespace kinequad {
+
+/// An indexed triangle mesh in space. One frame of an animation is such a mesh; all frames share `F`.
+struct TriangleMesh {
+    Positions V;  ///< n x 3 vertex positions, in the units of the input
+    Triangles F;  ///< m x 3 vertex indices
+};
+
+/// A point on a triangle mesh: the triangle that holds it and its barycentric coordinates there,
+/// non-negative and summing to one. The same point in every frame.
+struct SurfacePoint {
+    int triangle = -1;
+    Vector3 barycentric = Vector3(1, 0, 0);
+};
+
+/// Length of the diagonal of the axis-aligned bounding box of the rows of `V`; 0 where there is none.
+double bounding_box_diagonal(const Positions& V);
+
+/// Position of a surface point in the frame whose vertex positions are `V` (n x 3).
+Vector3 position_of(const SurfacePoint& point, const Positions& V, const Triangles& F);
+
+}  // namespace kinequad

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+
+#include "kinequad/field/cross_field_method.h"
+
+namespace kinequad {
+
+/// How the quad mesh is made symmetric.
+enum class SymmetryMode {
+    none,  ///< symmetry of the shape is not used
+};
+
+/// Edge lengths that the surface is known by up to the grid map. docs/pipeline.md
+enum class MetricChoice {
+    mean,       ///< averaged over all frames
+    reference,  ///< of the reference frame
+};
+
+/// Everything that a run can be told. Each field is an option of the command line and of run.json.
+struct Options {
+    /// `reference` for the rest shape that comes beside a point cache.
+    static constexpr int rest_shape = -1;
+
+    SymmetryMode symmetry = SymmetryMode::none;
+    int vertices = 5200;     ///< wanted number of quad vertices, met within 5 %
+    double edge_length = 0;  ///< wanted quad edge length in units of the input; 0: from `vertices`
+    /// Recipe of the cross field; `paper` is the energy and solver of Du and Tu.
+    CrossFieldMethod field = CrossFieldMethod::convex;
+    /// Influence of the animation on the cross field; empty: what was measured best with `field`.
+    /// With 0 the run sees a single pose, the reference frame.
+    std::optional<double> alpha;
+    double curvature = 0.1;  ///< influence of the curvature on the cross field (`convex` only)
+    double singularity_cost = 0.2;  ///< energy that a singularity may cost, rad^2 (`convex` only)
+    /// Empty: `mean`, and `reference` where `alpha` is 0.
+    std::optional<MetricChoice> metric;
+    int reference = 0;    ///< frame that is the reference, or `rest_shape`
+    bool metrics = true;  ///< measure the result in every frame
+};
+
+/// True where the run sees the reference frame only: no influence of the animation and its metric.
+/// For options whose empty fields have been filled in.
+inline bool is_single_pose(const Options& options) {
+    return options.alpha == 0.0 && options.metric == MetricChoice::reference;
+}
+
+/// `options` with empty fields filled in by their defaults. Throws `InputError` (usage) where a
+/// value is out of its range, `reference` for `frame_count` frames and `has_rest_shape`.
+Options resolve_options(Options options, int frame_count, bool has_rest_shape);
+
+}  // namespace kinequad

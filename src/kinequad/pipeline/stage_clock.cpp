@@ -1,0 +1,23 @@
+#include "kinequad/pipeline/stage_clock.h"
+
+#include <ctime>
+#include <utility>
+
+namespace kinequad {
+
+double process_cpu_seconds() {
+    return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
+}
+
+StageClock::StageClock() : wall_(std::chrono::steady_clock::now()), cpu_(process_cpu_seconds()) {}
+
+void StageClock::finish_stage(std::string stage, std::vector<StageTime>& times) {
+    const auto wall = std::chrono::steady_clock::now();
+    const double cpu = process_cpu_seconds();
+    times.push_back(
+        {std::move(stage), std::chrono::duration<double>(wall - wall_).count(), cpu - cpu_});
+    wall_ = wall;
+    cpu_ = cpu;
+}
+
+}  // namespace kinequad

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "kinequad/core/context.h"
+#include "kinequad/field/cross_field.h"
+#include "kinequad/field/cross_field_method.h"
+#include "kinequad/field/cross_field_targets.h"
+#include "kinequad/mesh/intrinsic_metric.h"
+
+namespace kinequad {
+
+/// A direction that the cross of one triangle has to keep.
+struct FixedDirection {
+    int triangle = -1;
+    double angle = 0;  ///< radians in the triangle's frame; a quarter turn more is the same cross
+};
+
+struct CrossFieldOptions {
+    CrossFieldMethod method = CrossFieldMethod::convex;
+    /// What one singularity may cost in energy, in squared radians, weighed when singularities are
+    /// moved, made and cancelled (`convex` only).
+    double singularity_cost = 0.2;
+    /// Wanted edge length of the quads, in units of the input: bumps smaller than it are smoothed
+    /// out of the connection before singularities are placed; 0 leaves the connection as it is
+    /// (`convex` only).
+    double edge_length = 0;
+    /// Edges that crosses on both sides are aligned with. Boundary edges always are.
+    std::vector<int> feature_edges;
+    /// Further triangles whose cross is given; a boundary or feature edge has precedence.
+    std::vector<FixedDirection> fixed_directions;
+};
+
+/// Computes a smooth cross field that is drawn to `targets` (m; both vectors may be empty for none)
+/// and aligned with the boundary, feature edges and fixed directions.
+///
+/// Minimises `sum_e w_e^2 + sum_t weight_t (theta_t - target_t)^2` over real angles and integer
+/// period jumps; `CrossField::energy` is its value. The result's indices sum to four times the
+/// Euler characteristic. Throws `InputError` (usage) where an option names a triangle or edge that
+/// does not exist, and `Cancelled`. [Du and Tu, eq. 9; Bommes et al. 2009; Knoppel et al. 2013]
+/// docs/field.md
+CrossField compute_cross_field(const Topology& topology, const IntrinsicMetric& metric,
+                               const CrossFieldTargets& targets, const CrossFieldOptions& options,
+                               const Context& context);
+
+}  // namespace kinequad

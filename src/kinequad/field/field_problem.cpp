@@ -1,0 +1,208 @@
+#include "kinequad/field/field_problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kinequad/core/error.h"
+
+namespace kinequad {
+namespace {
+
+constexpr double quarter = std::numbers::pi / 2;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Directions of all half-edges (3m) in the frames of their triangles.
+std::vector<double> all_directions(const Topology& topology, const IntrinsicMetric& metric) {
+    std::vector<double> directions;
+    directions.reserve(3 * at(topology.triangle_count));
+    for (int t = 0; t < topology.triangle_count; ++t) {
+        for (const double d : half_edge_directions(side_lengths(topology, metric, t))) {
+            directions.push_back(d);
+        }
+    }
+    return directions;
+}
+
+void check_options(const Topology& topology, const CrossFieldTargets& targets,
+                   const CrossFieldOptions& options) {
+    for (const int e : options.feature_edges) {
+        if (e < 0 || e >= topology.edge_count) {
+            throw InputError(InputFault::usage,
+                             fmt::format("feature edge {} does not exist; the mesh has {} edges", e,
+                                         topology.edge_count));
+        }
+    }
+    for (const FixedDirection& fixed : options.fixed_directions) {
+        if (fixed.triangle < 0 || fixed.triangle >= topology.triangle_count ||
+            !std::isfinite(fixed.angle)) {
+            throw InputError(InputFault::usage,
+                             fmt::format("fixed direction {} of triangle {}: name one of the {} "
+                                         "triangles and a finite angle",
+                                         fixed.angle, fixed.triangle, topology.triangle_count));
+        }
+    }
+    require(targets.value.size() == targets.weight.size() &&
+                (targets.value.size() == 0 || targets.value.size() == topology.triangle_count),
+            InputFault::usage, "cross field targets need one value and one weight a triangle");
+}
+
+/// A triangle with several edges to align with takes the mean cross of them, weighted by length, so
+/// that no edge is left further off than it has to be.
+void fix_crosses(FieldProblem& problem, const Topology& topology, const IntrinsicMetric& metric,
+                 const CrossFieldOptions& options, const std::vector<double>& directions) {
+    const std::size_t count = at(problem.triangle_count);
+    std::vector<Complex> sum(count, 0);
+    std::vector<double> longest(count, 0);
+    std::vector<double> longest_direction(count, 0);
+    const auto align = [&](int half_edge, double length) {
+        const std::size_t t = at(half_edge / 3);
+        const double direction = directions[at(half_edge)];
+        problem.fixed[t] = true;
+        sum[t] += std::polar(length, 4 * direction);
+        if (length > longest[t]) {
+            longest[t] = length;
+            longest_direction[t] = direction;
+        }
+    };
+    std::vector<bool> feature(at(topology.edge_count), false);
+    for (const int e : options.feature_edges) feature[at(e)] = true;
+    for (int e = 0; e < topology.edge_count; ++e) {
+        if (!feature[at(e)] && !topology.is_boundary_edge(e)) continue;
+        const int h = topology.edge_half_edge[at(e)];
+        align(h, metric.edge_length[e]);
+        if (topology.twin[at(h)] >= 0) align(topology.twin[at(h)], metric.edge_length[e]);
+    }
+    std::vector<bool> by_edge = problem.fixed;
+    for (std::size_t t = 0; t < count; ++t) {
+        if (!by_edge[t]) continue;
+        const bool clear = std::abs(sum[t]) > 1e-6 * longest[t];
+        problem.fixed_angle[static_cast<Eigen::Index>(t)] =
+            clear ? std::arg(sum[t]) / 4 : longest_direction[t];
+    }
+    for (const FixedDirection& direction : options.fixed_directions) {
+        if (by_edge[at(direction.triangle)]) continue;
+        problem.fixed[at(direction.triangle)] = true;
+        problem.fixed_angle[direction.triangle] = direction.angle;
+    }
+}
+
+void find_anchors(FieldProblem& problem) {
+    int components = 0;
+    for (const int c : problem.component) components = std::max(components, c + 1);
+    std::vector<double> soft(at(components), 0);
+    problem.anchored.assign(at(components), false);
+    for (int t = 0; t < problem.triangle_count; ++t) {
+        const std::size_t c = at(problem.component[at(t)]);
+        soft[c] += problem.weight[t];
+        if (problem.fixed[at(t)]) problem.anchored[c] = true;
+    }
+    // Below this the soft terms only make the systems singular to working precision.
+    constexpr double weakest = 1e-7;
+    for (std::size_t c = 0; c < soft.size(); ++c) {
+        if (soft[c] > weakest) problem.anchored[c] = true;
+    }
+    for (int t = 0; t < problem.triangle_count; ++t) {
+        if (!problem.anchored[at(problem.component[at(t)])]) problem.weight[t] = 0;
+    }
+}
+
+}  // namespace
+
+int nearest_quarter(double angle) { return static_cast<int>(std::lround(angle / quarter)); }
+
+FieldProblem make_field_problem(const Topology& topology, const IntrinsicMetric& metric,
+                                const CrossFieldTargets& targets,
+                                const CrossFieldOptions& options) {
+    check_options(topology, targets, options);
+    FieldProblem problem;
+    problem.triangle_count = topology.triangle_count;
+    problem.edge_count = topology.edge_count;
+    problem.vertex_count = topology.vertex_count;
+    problem.defect = angle_defects(topology, metric);
+    problem.weight = Eigen::VectorXd::Zero(topology.triangle_count);
+    problem.target = Eigen::VectorXd::Zero(topology.triangle_count);
+    problem.fixed.assign(at(topology.triangle_count), false);
+    problem.fixed_angle = Eigen::VectorXd::Zero(topology.triangle_count);
+    problem.component = triangle_components(topology);
+
+    const std::vector<double> directions = all_directions(topology, metric);
+    fix_crosses(problem, topology, metric, options, directions);
+    if (targets.value.size() > 0) {
+        for (int t = 0; t < topology.triangle_count; ++t) {
+            if (problem.fixed[at(t)]) continue;
+            problem.weight[t] = targets.weight[t];
+            problem.target[t] = std::arg(targets.value[t]) / 4;
+        }
+    }
+    find_anchors(problem);
+
+    problem.kappa = Eigen::VectorXd::Zero(topology.edge_count);
+    problem.boundary_residual = Eigen::VectorXd::Zero(topology.edge_count);
+    for (int e = 0; e < topology.edge_count; ++e) {
+        const int h = topology.edge_half_edge[at(e)];
+        const int other = topology.twin[at(h)];
+        problem.left.push_back(h / 3);
+        problem.right.push_back(other < 0 ? -1 : other / 3);
+        problem.tail.push_back(topology.origin[at(h)]);
+        problem.head.push_back(topology.target(h));
+        if (other >= 0) {
+            problem.kappa[e] = directions[at(other)] + std::numbers::pi - directions[at(h)];
+        } else {
+            const double difference = problem.fixed_angle[h / 3] - directions[at(h)];
+            problem.boundary_residual[e] = difference - quarter * nearest_quarter(difference);
+        }
+    }
+    return problem;
+}
+
+Eigen::VectorXd edge_residuals(const FieldProblem& problem, const FieldState& state) {
+    Eigen::VectorXd residual = problem.boundary_residual;
+    for (int e = 0; e < problem.edge_count; ++e) {
+        if (problem.right[at(e)] < 0) continue;
+        residual[e] = state.angle[problem.left[at(e)]] + problem.kappa[e] +
+                      quarter * state.period_jump[e] - state.angle[problem.right[at(e)]];
+    }
+    return residual;
+}
+
+Eigen::VectorXi singularity_indices(const FieldProblem& problem, const Eigen::VectorXd& residual) {
+    Eigen::VectorXd holonomy = problem.defect;
+    for (int e = 0; e < problem.edge_count; ++e) {
+        holonomy[problem.tail[at(e)]] += residual[e];
+        holonomy[problem.head[at(e)]] -= residual[e];
+    }
+    Eigen::VectorXi index(problem.vertex_count);
+    for (int v = 0; v < problem.vertex_count; ++v) index[v] = nearest_quarter(holonomy[v]);
+    return index;
+}
+
+double field_energy(const FieldProblem& problem, const FieldState& state,
+                    const Eigen::VectorXd& residual) {
+    double energy = 0;
+    for (int e = 0; e < problem.edge_count; ++e) {
+        if (problem.right[at(e)] >= 0) energy += residual[e] * residual[e];
+    }
+    for (int t = 0; t < problem.triangle_count; ++t) {
+        if (!(problem.weight[t] > 0)) continue;
+        const double difference = state.angle[t] - problem.target[t];
+        const double snapped = difference - quarter * nearest_quarter(difference);
+        energy += problem.weight[t] * snapped * snapped;
+    }
+    return energy;
+}
+
+Eigen::VectorXi nearest_period_jumps(const FieldProblem& problem, const Eigen::VectorXd& angle) {
+    Eigen::VectorXi period_jump = Eigen::VectorXi::Zero(problem.edge_count);
+    for (int e = 0; e < problem.edge_count; ++e) {
+        if (problem.right[at(e)] < 0) continue;
+        period_jump[e] = -nearest_quarter(angle[problem.left[at(e)]] + problem.kappa[e] -
+                                          angle[problem.right[at(e)]]);
+    }
+    return period_jump;
+}
+
+}  // namespace kinequad

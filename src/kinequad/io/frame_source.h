@@ -3,6 +3,7 @@
 #include <string>
 
 #include "kinequad/core/types.h"
+#include "kinequad/io/polygons.h"
 #include "kinequad/mesh/triangle_mesh.h"
 
 namespace kinequad {
@@ -18,13 +19,15 @@ public:
 
     /// Triangles of every frame (m x 3).
     virtual const Triangles& triangles() const = 0;
+    /// The faces as the input has them, before they were cut into triangles.
+    virtual Polygons polygons() const { return make_polygons(triangles()); }
     /// Number of vertices of every frame.
     virtual int vertex_count() const = 0;
     /// Number of frames, at least 1.
     virtual int frame_count() const = 0;
     /// Positions (n x 3) of frame `frame`, 0 <= frame < frame_count(). Safe to call from several
-    /// threads at once. Throws `InputError` (file) where the frame cannot be read and (mesh) where it
-    /// is not a frame of this sequence, or holds a number that is not finite.
+    /// threads at once. Throws `InputError` (file) where the frame cannot be read and (mesh) where
+    /// it is not a frame of this sequence, or holds a number that is not finite.
     virtual Positions read_frame(int frame) const = 0;
     /// True where the input brings a rest shape that is no frame (the OBJ beside a point cache).
     virtual bool has_rest_shape() const { return false; }

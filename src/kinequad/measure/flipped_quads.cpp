@@ -1,0 +1,50 @@
+#include "kinequad/measure/flipped_quads.h"
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "kinequad/core/parallel.h"
+#include "kinequad/measure/triangulation.h"
+
+namespace kinequad {
+namespace {
+
+Vector3 triangle_normal(const ClosestPoints& surface, int t) {
+    const Positions& V = surface.positions();
+    const auto corners = surface.triangles().row(t);
+    const Vector3 a = V.row(corners[0]).transpose();
+    return (V.row(corners[1]).transpose() - a).cross(V.row(corners[2]).transpose() - a);
+}
+
+/// Product of the normals of a quad and of the input below it; its sign says whether they agree.
+double agreement(const Positions& X, const Polygons& faces, int f, const ClosestPoints& input) {
+    const auto corner = [&](int k) -> Vector3 { return X.row(vertex_of(faces, f, k)).transpose(); };
+    const Vector3 center = (corner(0) + corner(1) + corner(2) + corner(3)) / 4;
+    const Vector3 normal = (corner(2) - corner(0)).cross(corner(3) - corner(1));
+    return normal.dot(triangle_normal(input, input.find(center).point.triangle));
+}
+
+}  // namespace
+
+int count_flipped_quads(const Positions& X, const Polygons& faces, const ClosestPoints& input,
+                        const Context& context) {
+    std::vector<double> sign(static_cast<std::size_t>(faces.count()), 0);
+    parallel_for(sign.size(), 256, context, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const int f = static_cast<int>(i);
+            if (degree_of(faces, f) == 4) sign[i] = agreement(X, faces, f, input);
+        }
+    });
+    int quads = 0;
+    int against = 0;
+    int along = 0;
+    for (int f = 0; f < faces.count(); ++f) {
+        if (degree_of(faces, f) != 4) continue;
+        ++quads;
+        if (sign[static_cast<std::size_t>(f)] < 0) ++against;
+        if (sign[static_cast<std::size_t>(f)] > 0) ++along;
+    }
+    return 2 * against > quads ? along : against;
+}
+
+}  // namespace kinequad

@@ -19,8 +19,8 @@ struct DeformationTensors {
     /// m: `sum_j s_j` and `sum_j s_j^2` [Du and Tu, eq. 8].
     Eigen::VectorXd stretch_sum;
     Eigen::VectorXd stretch_square_sum;
-    /// m: mean over some frames of `x / (1 + x) exp(4 i theta)` of the smoothed curvature, in [0, 1]
-    /// by modulus. docs/deformation.md
+    /// m: mean over some frames of `x / (1 + x) exp(4 i theta)` of the smoothed curvature, in [0,
+    /// 1] by modulus. docs/deformation.md
     Eigen::VectorXcd curvature;
 };
 

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "kinequad/gridmap/map_variables.h"
+
+namespace kinequad {
+
+/// An intrinsic triangulation of the flat cone metric of a map, by its nodes alone. Every half-edge knows
+/// its displacement in the chart of its triangle, and which integer form in the unknowns y that is. It
+/// stays a triangulation (all triangles of positive area) while the nodes are moved, by flipping an edge
+/// where a triangle collapses: as long as that goes on, a map of the surface without a flipped triangle
+/// exists for the new positions. docs/gridmap.md, "Whole numbers"
+class ConeTriangulation {
+public:
+    /// Copies the injective map `corners` (3m) of `mesh` and takes out every vertex that is no node.
+    /// `integers` are the values of y in that map.
+    /// Throws `GridMapError` where a vertex cannot be taken out.
+    ConeTriangulation(const ChartedMesh& mesh, const MapVariables& variables,
+                      const std::vector<Complex>& corners, const Eigen::VectorXd& integers);
+
+    /// Moves y by `step` along a straight line. Returns false, with nothing changed, where that would
+    /// bring two nodes together or push one through the boundary.
+    bool move(const Eigen::VectorXd& step);
+    /// Multiplies all positions by `factor`.
+    void scale(double factor);
+    /// Flips edges until the triangulation is Delaunay.
+    void make_delaunay();
+    /// Sets y, which the triangulation has reached up to rounding errors, exactly.
+    void snap(const Eigen::VectorXd& integers);
+
+    const Eigen::VectorXd& integers() const { return integers_; }
+    int triangle_count() const { return static_cast<int>(alive_.size()); }
+    /// Twice the area of the image of triangle `i` of the list, in cells.
+    double determinant(int i) const;
+    /// Derivative of `determinant(i)` by y.
+    Eigen::VectorXd determinant_gradient(int i) const;
+    /// Area of the whole map in cells: the number of quads once all is whole.
+    double area() const;
+
+private:
+    using Rows = Eigen::Matrix<int, 2, Eigen::Dynamic>;
+
+    bool can_flip(int h, double least) const;
+    void flip(int h);
+    void take_out_vertices(const MapVariables& variables, int vertex_count);
+    bool take_out(int v, std::vector<int>& outgoing);
+    void compact();
+    Complex rows_times(const Rows& rows, const Eigen::VectorXd& y) const;
+
+    // Per half-edge, three a triangle.
+    std::vector<int> origin_;
+    std::vector<int> twin_;
+    std::vector<int> rotation_;
+    std::vector<Complex> displacement_;
+    std::vector<Rows> rows_;  ///< empty where the form is zero
+    std::vector<int> alive_;  ///< triangles in use
+    std::vector<char> is_dead_;
+    Eigen::VectorXd integers_;
+};
+
+}  // namespace kinequad

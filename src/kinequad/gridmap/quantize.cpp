@@ -1,0 +1,241 @@
+#include "kinequad/gridmap/quantize.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "kinequad/core/error.h"
+
+namespace kinequad {
+namespace {
+
+/// Twice the area every triangle of cones should keep, in cells; whole triangles have at least 1.
+constexpr double wanted_room = 1.3;
+constexpr double room_weight = 10;
+
+class Rounding {
+public:
+    Rounding(ConeTriangulation cone, const Eigen::MatrixXd& stiffness, Eigen::VectorXd best,
+             const Context& context)
+        : cone_(std::move(cone)),
+          stiffness_(stiffness),
+          best_(std::move(best)),
+          context_(context),
+          is_fixed_(static_cast<std::size_t>(best_.size()), 0) {}
+
+    /// Whole numbers for all unknowns, or nothing where cones block each other.
+    std::optional<Eigen::VectorXd> run() {
+        make_room(60);
+        if (!round_all()) return std::nullopt;
+        improve();
+        return cone_.integers();
+    }
+
+    double quads() const { return cone_.area(); }
+
+private:
+    double energy() const {
+        const Eigen::VectorXd away = cone_.integers() - best_;
+        double sum = away.dot(stiffness_ * away);
+        for (int i = 0; i < cone_.triangle_count(); ++i) {
+            const double lack = wanted_room - cone_.determinant(i);
+            if (lack > 0) sum += room_weight * lack * lack;
+        }
+        return sum;
+    }
+
+    std::vector<int> free_unknowns() const {
+        std::vector<int> free;
+        for (int i = 0; i < best_.size(); ++i) {
+            if (!is_fixed_[static_cast<std::size_t>(i)]) free.push_back(i);
+        }
+        return free;
+    }
+
+    /// Gauss-Newton steps on `energy` over the unknowns that are not fixed.
+    void make_room(int most_steps) {
+        const std::vector<int> free = free_unknowns();
+        if (free.empty()) return;
+        double before = energy();
+        for (int i = 0; i < most_steps; ++i) {
+            context_.check_cancelled();
+            Eigen::MatrixXd matrix = stiffness_(free, free);
+            Eigen::VectorXd right = (stiffness_ * (best_ - cone_.integers()))(free);
+            for (int t = 0; t < cone_.triangle_count(); ++t) {
+                const double lack = wanted_room - cone_.determinant(t);
+                if (lack <= 0) continue;
+                const Eigen::VectorXd gradient = cone_.determinant_gradient(t)(free);
+                matrix.selfadjointView<Eigen::Lower>().rankUpdate(gradient, room_weight);
+                right += room_weight * lack * gradient;
+            }
+            const Eigen::VectorXd direction = matrix.selfadjointView<Eigen::Lower>().llt().solve(right);
+            bool moved = false;
+            for (double length = 1; length > 0.05; length /= 2) {
+                Eigen::VectorXd step = Eigen::VectorXd::Zero(best_.size());
+                step(free) = length * direction;
+                if (!cone_.move(step)) continue;
+                const double after = energy();
+                if (after < before) {
+                    moved = before - after > 1e-4 * before;
+                    before = after;
+                    break;
+                }
+                cone_.move(-step);
+            }
+            if (!moved) return;
+        }
+    }
+
+    bool round_all() {
+        const auto count = best_.size();
+        Eigen::MatrixXd compliance = stiffness_.llt().solve(Eigen::MatrixXd::Identity(count, count));
+        std::vector<char> deferred(static_cast<std::size_t>(count), 0);
+        int since_room = 0;
+        int patience = 3;
+        while (true) {
+            context_.check_cancelled();
+            const int i = easiest(compliance, deferred);
+            if (i < 0) {
+                if (free_unknowns().empty()) return true;
+                // All that is left is blocked: make room anew and try again.
+                if (--patience < 0) return false;
+                std::fill(deferred.begin(), deferred.end(), 0);
+                make_room(30);
+                continue;
+            }
+            if (!fix(i, compliance)) {
+                deferred[static_cast<std::size_t>(i)] = 1;
+                continue;
+            }
+            const Eigen::VectorXd column = compliance.col(i) / std::sqrt(compliance(i, i));
+            compliance.noalias() -= column * column.transpose();
+            is_fixed_[static_cast<std::size_t>(i)] = 1;
+            if (++since_room == 10) {
+                since_room = 0;
+                make_room(3);
+                std::fill(deferred.begin(), deferred.end(), 0);
+            }
+        }
+    }
+
+    int easiest(const Eigen::MatrixXd& compliance, const std::vector<char>& deferred) const {
+        int best = -1;
+        double least = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < best_.size(); ++i) {
+            if (is_fixed_[static_cast<std::size_t>(i)] || deferred[static_cast<std::size_t>(i)]) continue;
+            const double value = cone_.integers()[i];
+            const double delta = std::round(value) - value;
+            const double cost = delta * delta / compliance(i, i);
+            if (cost < least) {
+                least = cost;
+                best = i;
+            }
+        }
+        return best;
+    }
+
+    /// Moves unknown `i` to a whole number, the others after it as far as cones allow.
+    bool fix(int i, const Eigen::MatrixXd& compliance) {
+        const double value = cone_.integers()[i];
+        const double nearest = std::round(value);
+        const double other = nearest > value ? nearest - 1 : nearest + 1;
+        const double beyond = nearest > value ? nearest + 1 : nearest - 1;
+        for (const double whole : {nearest, other, beyond}) {
+            for (const double follow : {1.0, 0.5, 0.0}) {
+                Eigen::VectorXd step = compliance.col(i) * (follow * (whole - value) / compliance(i, i));
+                for (int j = 0; j < step.size(); ++j) {
+                    if (is_fixed_[static_cast<std::size_t>(j)]) step[j] = 0;
+                }
+                step[i] = whole - value;
+                if (!cone_.move(step)) continue;
+                Eigen::VectorXd exact = cone_.integers();
+                exact[i] = whole;
+                cone_.snap(exact);
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// Single steps of one unknown while they lower the energy.
+    void improve() {
+        const auto count = best_.size();
+        std::vector<char> blocked(static_cast<std::size_t>(2 * count), 0);
+        double before = energy();
+        for (int round = 0; round < 10 * count + 10; ++round) {
+            context_.check_cancelled();
+            const Eigen::VectorXd gradient = 2 * (stiffness_ * (cone_.integers() - best_));
+            int choice = -1;
+            double gain = -1e-9;
+            for (int i = 0; i < count; ++i) {
+                for (int side = 0; side < 2; ++side) {
+                    if (blocked[static_cast<std::size_t>(2 * i + side)]) continue;
+                    const double change = (side == 0 ? gradient[i] : -gradient[i]) + stiffness_(i, i);
+                    if (change < gain) {
+                        gain = change;
+                        choice = 2 * i + side;
+                    }
+                }
+            }
+            if (choice < 0) return;
+            Eigen::VectorXd step = Eigen::VectorXd::Zero(count);
+            step[choice / 2] = choice % 2 == 0 ? 1 : -1;
+            if (cone_.move(step)) {
+                const double after = energy();
+                if (after < before) {
+                    before = after;
+                    std::fill(blocked.begin(), blocked.end(), 0);
+                    snap_to_whole();
+                    continue;
+                }
+                cone_.move(-step);
+                snap_to_whole();
+            }
+            blocked[static_cast<std::size_t>(choice)] = 1;
+        }
+    }
+
+    void snap_to_whole() { cone_.snap(cone_.integers().array().round()); }
+
+    ConeTriangulation cone_;
+    const Eigen::MatrixXd& stiffness_;
+    Eigen::VectorXd best_;
+    const Context& context_;
+    std::vector<char> is_fixed_;
+};
+
+}  // namespace
+
+Quantization quantize(const ConeTriangulation& cone, const Eigen::MatrixXd& stiffness,
+                      const Eigen::VectorXd& best, double quad_count, const Context& context) {
+    double scale = std::sqrt(quad_count / cone.area());
+    std::optional<Quantization> closest;
+    int failures = 0;
+    for (int attempt = 0; attempt < 8; ++attempt) {
+        ConeTriangulation scaled = cone;
+        scaled.scale(scale);
+        Rounding rounding(std::move(scaled), stiffness, scale * best, context);
+        const std::optional<Eigen::VectorXd> integers = rounding.run();
+        if (!integers) {
+            context.write_log(LogLevel::info,
+                              fmt::format("gridmap: cones block each other at scale {:.3f}", scale));
+            scale *= failures < 2 ? (failures == 0 ? 1.02 : 0.96) : 1.15;
+            ++failures;
+            continue;
+        }
+        const Quantization found{*integers, scale, rounding.quads()};
+        const auto miss = [&](const Quantization& q) { return std::abs(q.quads / quad_count - 1); };
+        if (!closest || miss(found) < miss(*closest)) closest = found;
+        if (miss(*closest) < 0.02 || (miss(*closest) < 0.04 && attempt >= 3)) break;
+        scale *= std::sqrt(quad_count / found.quads);
+    }
+    if (!closest) {
+        throw GridMapError("the singularities find no room on the integer grid; ask for more vertices");
+    }
+    return *closest;
+}
+
+}  // namespace kinequad

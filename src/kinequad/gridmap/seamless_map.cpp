@@ -1,0 +1,152 @@
+#include "kinequad/gridmap/seamless_map.h"
+
+#include <Eigen/Dense>
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
+#include <cmath>
+
+#include "kinequad/core/error.h"
+
+namespace kinequad {
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+
+/// What the projection asks of a triangle `f(q) = a q + b conj(q)`:
+/// `|b| <= steepness * (Re a - margin)`.
+constexpr double steepness = 0.8;
+constexpr double margin = 0.1;
+constexpr double over_relaxation = 1.6;
+constexpr int most_rounds = 400;
+
+Matrix6 quadratic_matrix(const TargetShape& shape) {
+    Matrix6 sum = Matrix6::Zero();
+    for (const bool anti : {false, true}) {
+        for (const Complex direction : {Complex(1, 0), Complex(0, 1)}) {
+            const Vector6 f = shape.functional(direction, anti);
+            sum += 4 * shape.area * f * f.transpose();
+        }
+    }
+    return sum;
+}
+
+/// Fill-reducing order of the vertex columns, followed by the chain columns, so that the trailing block
+/// of the factor is that of the Schur complement of the chain columns.
+Permutation chains_last(const SparseMatrix& lower, int vertex_columns) {
+    const SparseMatrix block = lower.topLeftCorner(vertex_columns, vertex_columns);
+    Permutation inverse;
+    Eigen::AMDOrdering<int>()(block.selfadjointView<Eigen::Lower>(), inverse);
+    const auto n = static_cast<int>(lower.rows());
+    Permutation order(n);
+    // AMD returns the permutation whose inverse puts the rows in elimination order.
+    const Permutation direct = inverse.inverse();
+    for (int i = 0; i < vertex_columns; ++i) order.indices()[i] = direct.indices()[i];
+    for (int i = vertex_columns; i < n; ++i) order.indices()[i] = i;
+    return order;
+}
+
+class LeastSquaresMap {
+public:
+    LeastSquaresMap(const MapVariables& variables, TriangleSystem& system,
+                    const std::vector<TargetShape>& shapes)
+        : variables_(variables), system_(system), shapes_(shapes) {
+        SparseMatrix lower = system.assemble([&](int t) {
+            return quadratic_matrix(shapes[static_cast<std::size_t>(t)]);
+        });
+        order_ = chains_last(lower, variables.vertex_columns);
+        SparseMatrix ordered(lower.rows(), lower.cols());
+        ordered.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(order_);
+        factor_.compute(ordered);
+        if (factor_.info() != Eigen::Success) {
+            throw GridMapError("the seamless map's system is singular");
+        }
+    }
+
+    /// The map whose triangles come closest to `f(q) = a q + b conj(q)`, `parts` = (a, b) a triangle.
+    Eigen::VectorXd solve(const std::vector<std::pair<Complex, Complex>>& parts) const {
+        const Eigen::VectorXd right = system_.gather([&](int t) -> Vector6 {
+            const TargetShape& shape = shapes_[static_cast<std::size_t>(t)];
+            const auto& [a, b] = parts[static_cast<std::size_t>(t)];
+            return 4 * shape.area * (shape.functional(a, false) + shape.functional(b, true));
+        });
+        return order_.transpose() * factor_.solve(order_ * right).eval();
+    }
+
+    /// Schur complement of the chain columns.
+    Eigen::MatrixXd chain_block() const {
+        const int first = variables_.vertex_columns;
+        const int count = variables_.chain_columns;
+        Eigen::MatrixXd lower = Eigen::MatrixXd::Identity(count, count);
+        const SparseMatrix& factor = factor_.matrixL().nestedExpression();
+        for (int c = 0; c < count; ++c) {
+            for (SparseMatrix::InnerIterator entry(factor, first + c); entry; ++entry) {
+                if (entry.row() > first + c) lower(entry.row() - first, c) = entry.value();
+            }
+        }
+        return lower * factor_.vectorD().tail(count).asDiagonal() * lower.transpose();
+    }
+
+private:
+    const MapVariables& variables_;
+    TriangleSystem& system_;
+    const std::vector<TargetShape>& shapes_;
+    Permutation order_;
+    Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> factor_;
+};
+
+/// The nearest pair (a, b) within the cone of orientation-keeping maps, over-relaxed.
+std::pair<Complex, Complex> projected(Complex a, Complex b) {
+    const double x = a.real() - margin;
+    const double y = std::abs(b);
+    if (y <= steepness * x) return {a, b};
+    const double s = std::max(0.0, (x + steepness * y) / (1 + steepness * steepness));
+    const double new_x = x + over_relaxation * (s - x);
+    const double new_y = y + over_relaxation * (steepness * s - y);
+    return {Complex(new_x + margin, a.imag()), y > 0 ? b * (new_y / y) : b};
+}
+
+}  // namespace
+
+int count_reversed(const std::vector<TargetShape>& shapes, const std::vector<Complex>& corners) {
+    int count = 0;
+    for (std::size_t t = 0; t < shapes.size(); ++t) {
+        const Complex a = shapes[t].conformal_part(&corners[3 * t]);
+        const Complex b = shapes[t].anticonformal_part(&corners[3 * t]);
+        count += std::abs(b) < a.real() ? 0 : 1;
+    }
+    return count;
+}
+
+SeamlessMap solve_seamless_map(const MapVariables& variables, TriangleSystem& system,
+                               const std::vector<TargetShape>& shapes, const Context& context) {
+    const LeastSquaresMap least_squares(variables, system, shapes);
+    std::vector<std::pair<Complex, Complex>> parts(shapes.size(), {Complex(1, 0), Complex(0, 0)});
+    SeamlessMap map;
+    map.x = least_squares.solve(parts);
+
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lattice(variables.lattice);
+    const auto integers_of = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+        if (variables.integer_count() == 0) return Eigen::VectorXd();
+        return lattice.solve(x.tail(variables.chain_columns));
+    };
+    map.best_integers = integers_of(map.x);
+    map.stiffness =
+        0.5 * variables.lattice.transpose() * least_squares.chain_block() * variables.lattice;
+
+    for (int round = 0; round < most_rounds; ++round) {
+        context.check_cancelled();
+        const std::vector<Complex> corners = variables.corner_coordinates(map.x);
+        map.reversed_triangles = count_reversed(shapes, corners);
+        if (map.reversed_triangles == 0) break;
+        for (std::size_t t = 0; t < shapes.size(); ++t) {
+            parts[t] = projected(shapes[t].conformal_part(&corners[3 * t]),
+                                 shapes[t].anticonformal_part(&corners[3 * t]));
+        }
+        map.x = least_squares.solve(parts);
+    }
+    map.integers = integers_of(map.x);
+    return map;
+}
+
+}  // namespace kinequad

@@ -2,9 +2,9 @@
 
 #include <numbers>
 
-#include "kinequad/field/angle_solver.h"
 #include "kinequad/field/convex_field.h"
-#include "kinequad/field/field_problem.h"
+#include "kinequad/field/period_search.h"
+#include "kinequad/field/smooth_connection.h"
 
 namespace kinequad {
 namespace {
@@ -25,6 +25,29 @@ FieldState canonical(const FieldProblem& problem, FieldState state) {
     return state;
 }
 
+FieldState search_field(const FieldProblem& problem, const Topology& topology,
+                        const IntrinsicMetric& metric, const CrossFieldOptions& options,
+                        const Context& context) {
+    const AngleSolver solver(problem);
+    const SingularityPrice price(topology, options.singularity_cost);
+    const auto search = [&](const FieldProblem& form, FieldState state) {
+        SolvedField field = solve_field(form, solver, price, std::move(state));
+        field = improve_periods(form, solver, price, std::move(field), context);
+        field = cancel_pairs(form, solver, price, std::move(field), context);
+        return improve_periods(form, solver, price, std::move(field), context).state;
+    };
+    const auto start = [&](const FieldProblem& form) {
+        FieldState state;
+        state.angle = solve_convex_field(form, context);
+        state.period_jump = nearest_period_jumps(form, state.angle);
+        return search(form, std::move(state));
+    };
+    if (!(options.edge_length > 0)) return start(problem);
+    const FieldProblem smooth =
+        smooth_connection(problem, topology, metric, options.edge_length / 2);
+    return search(problem, start(smooth));
+}
+
 }  // namespace
 
 CrossField compute_cross_field(const Topology& topology, const IntrinsicMetric& metric,
@@ -32,11 +55,8 @@ CrossField compute_cross_field(const Topology& topology, const IntrinsicMetric& 
                                const Context& context) {
     const FieldProblem problem = make_field_problem(topology, metric, targets, options);
     context.check_cancelled();
-    const AngleSolver solver(problem);
-    FieldState state;
-    state.angle = solve_convex_field(problem, context);
-    state.period_jump = nearest_period_jumps(problem, state.angle);
-    state = canonical(problem, solver.solve(problem, std::move(state)));
+    FieldState state =
+        canonical(problem, search_field(problem, topology, metric, options, context));
 
     const Eigen::VectorXd residual = edge_residuals(problem, state);
     CrossField field;

@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <queue>
+#include <utility>
+
+#include "kinequad/field/period_search.h"
+
+namespace kinequad {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int largest_rounds = 10;
+constexpr std::size_t partners = 2;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+struct PathStep {
+    int edge = 0;
+    int change = 0;  ///< of the period jump
+};
+
+struct Candidate {
+    int from = 0;  ///< negative singularity
+    int to = 0;    ///< positive one
+    std::vector<PathStep> path;
+    double stiffness = 0;  ///< energy of the change itself, the angles re-solved
+    double gain = 0;
+};
+
+/// Edges that leave every vertex, as one list with offsets.
+struct VertexEdges {
+    std::vector<int> first;
+    std::vector<int> edge;
+};
+
+VertexEdges list_vertex_edges(const FieldProblem& problem) {
+    VertexEdges list;
+    list.first.assign(at(problem.vertex_count) + 1, 0);
+    for (int e = 0; e < problem.edge_count; ++e) {
+        if (problem.right[at(e)] < 0) continue;
+        ++list.first[at(problem.tail[at(e)]) + 1];
+        ++list.first[at(problem.head[at(e)]) + 1];
+    }
+    for (std::size_t v = 1; v < list.first.size(); ++v) list.first[v] += list.first[v - 1];
+    list.edge.resize(at(list.first.back()));
+    std::vector<int> next(list.first.begin(), list.first.end() - 1);
+    for (int e = 0; e < problem.edge_count; ++e) {
+        if (problem.right[at(e)] < 0) continue;
+        list.edge[at(next[at(problem.tail[at(e)])]++)] = e;
+        list.edge[at(next[at(problem.head[at(e)])]++)] = e;
+    }
+    return list;
+}
+
+/// Shortest paths over the mesh from one negative singularity to the nearest positive ones; steps
+/// that the field already leans to are short.
+class PathFinder {
+public:
+    explicit PathFinder(const FieldProblem& problem)
+        : problem_(problem),
+          edges_(list_vertex_edges(problem)),
+          distance_(at(problem.vertex_count), std::numeric_limits<double>::infinity()),
+          arrival_(at(problem.vertex_count)) {}
+
+    std::vector<Candidate> find(const SolvedField& field, int from) {
+        std::vector<Candidate> found;
+        std::vector<int> reached = {from};
+        std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>,
+                            std::greater<>>
+            queue;
+        distance_[at(from)] = 0;
+        queue.emplace(0, from);
+        while (!queue.empty() && found.size() < partners) {
+            const auto [distance, v] = queue.top();
+            queue.pop();
+            if (distance > distance_[at(v)]) continue;
+            if (field.index[v] > 0) found.push_back({from, v, trace(from, v), 0, 0});
+            for (int i = edges_.first[at(v)]; i < edges_.first[at(v) + 1]; ++i) {
+                const int e = edges_.edge[at(i)];
+                const bool forward = problem_.tail[at(e)] == v;
+                const int change = forward ? 1 : -1;
+                const int next = forward ? problem_.head[at(e)] : problem_.tail[at(e)];
+                const double length = std::max(0.1, 1 + 2 * change * field.residual[e]);
+                if (distance + length >= distance_[at(next)]) continue;
+                if (distance_[at(next)] == std::numeric_limits<double>::infinity()) {
+                    reached.push_back(next);
+                }
+                distance_[at(next)] = distance + length;
+                arrival_[at(next)] = {e, change};
+                queue.emplace(distance + length, next);
+            }
+        }
+        for (const int v : reached) distance_[at(v)] = std::numeric_limits<double>::infinity();
+        return found;
+    }
+
+private:
+    std::vector<PathStep> trace(int from, int to) const {
+        std::vector<PathStep> path;
+        for (int v = to; v != from;) {
+            const PathStep& step = arrival_[at(v)];
+            path.push_back(step);
+            v = step.change > 0 ? problem_.tail[at(step.edge)] : problem_.head[at(step.edge)];
+        }
+        return path;
+    }
+
+    const FieldProblem& problem_;
+    VertexEdges edges_;
+    std::vector<double> distance_;
+    std::vector<PathStep> arrival_;
+};
+
+/// Energy that a change of periods costs apart from its product with the residuals:
+/// `sum pi^2/4 - r^T A^-1 r`.
+double stiffness_of(const FieldProblem& problem, const AngleSolver& solver,
+                    const std::vector<PathStep>& path) {
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(problem.triangle_count);
+    for (const PathStep& step : path) {
+        r[problem.left[at(step.edge)]] += pi / 2 * step.change;
+        r[problem.right[at(step.edge)]] -= pi / 2 * step.change;
+    }
+    return pi * pi / 4 * static_cast<double>(path.size()) - r.dot(solver.apply_inverse(r));
+}
+
+double gain_of(const SingularityPrice& price, const SolvedField& field,
+               const Candidate& candidate) {
+    double gain = candidate.stiffness;
+    for (const PathStep& step : candidate.path) {
+        gain += pi * step.change * field.residual[step.edge];
+    }
+    const int from = field.index[candidate.from];
+    const int to = field.index[candidate.to];
+    return gain + price(candidate.from, from + 1) - price(candidate.from, from) +
+           price(candidate.to, to - 1) - price(candidate.to, to);
+}
+
+}  // namespace
+
+SolvedField cancel_pairs(const FieldProblem& problem, const AngleSolver& solver,
+                         const SingularityPrice& price, SolvedField field, const Context& context) {
+    PathFinder finder(problem);
+    for (int round = 0; round < largest_rounds; ++round) {
+        std::vector<Candidate> candidates;
+        for (int v = 0; v < problem.vertex_count; ++v) {
+            if (field.index[v] >= 0) continue;
+            context.check_cancelled();
+            for (Candidate& candidate : finder.find(field, v)) {
+                candidate.stiffness = stiffness_of(problem, solver, candidate.path);
+                candidate.gain = gain_of(price, field, candidate);
+                if (candidate.gain < 0) candidates.push_back(std::move(candidate));
+            }
+        }
+        std::stable_sort(candidates.begin(), candidates.end(),
+                         [](const Candidate& x, const Candidate& y) { return x.gain < y.gain; });
+        bool improved = false;
+        for (const Candidate& candidate : candidates) {
+            if (field.index[candidate.from] >= 0 || field.index[candidate.to] <= 0) continue;
+            if (gain_of(price, field, candidate) >= 0) continue;
+            FieldState state = field.state;
+            for (const PathStep& step : candidate.path) {
+                state.period_jump[step.edge] += step.change;
+            }
+            SolvedField next = solve_field(problem, solver, price, std::move(state));
+            if (next.cost >= field.cost) continue;
+            field = std::move(next);
+            improved = true;
+        }
+        if (!improved) break;
+    }
+    return field;
+}
+
+}  // namespace kinequad

@@ -4,6 +4,7 @@
 
 #include "kinequad/field/convex_field.h"
 #include "kinequad/field/period_search.h"
+#include "kinequad/field/round_greedily.h"
 #include "kinequad/field/smooth_connection.h"
 
 namespace kinequad {
@@ -48,6 +49,18 @@ FieldState search_field(const FieldProblem& problem, const Topology& topology,
     return search(problem, start(smooth));
 }
 
+FieldState round_field(const FieldProblem& problem, const Topology& topology,
+                       const Context& context) {
+    const AngleSolver solver(problem);
+    // Without a price singularities stay where rounding puts them, but for those that admit no map.
+    const SingularityPrice price(topology, 0);
+    SolvedField field = solve_field(problem, solver, price, round_greedily(problem, context));
+    if (price.sum(field.index) > 0) {
+        field = improve_periods(problem, solver, price, std::move(field), context);
+    }
+    return field.state;
+}
+
 }  // namespace
 
 CrossField compute_cross_field(const Topology& topology, const IntrinsicMetric& metric,
@@ -55,8 +68,10 @@ CrossField compute_cross_field(const Topology& topology, const IntrinsicMetric& 
                                const Context& context) {
     const FieldProblem problem = make_field_problem(topology, metric, targets, options);
     context.check_cancelled();
+    const bool greedy = options.method == CrossFieldMethod::paper;
     FieldState state =
-        canonical(problem, search_field(problem, topology, metric, options, context));
+        canonical(problem, greedy ? round_field(problem, topology, context)
+                                  : search_field(problem, topology, metric, options, context));
 
     const Eigen::VectorXd residual = edge_residuals(problem, state);
     CrossField field;

@@ -68,7 +68,8 @@ std::vector<Coordinate> points_inside(const GridMap& map, int t) {
         Wide low = low_column;
         Wide high = high_column;
         for (std::size_t k = 0; k < 3; ++k) {
-            // A point of the row is left of the side where rise * (u - from.u) < reach.
+            // A point of the row is left of the side where rise * (u - from.u) < reach; that holds
+            // along all of the row where the side is parallel to it.
             const Coordinate from = z[k];
             const Coordinate side = minus(z[(k + 1) % 3], from);
             const Wide rise = side.v;
@@ -78,8 +79,6 @@ std::vector<Coordinate> points_inside(const GridMap& map, int t) {
                 high = std::min(high, -floor_divide(-bound, rise * one) - 1);
             } else if (rise < 0) {
                 low = std::max(low, floor_divide(-bound, -rise * one) + 1);
-            } else if (reach <= 0) {
-                high = low - 1;
             }
         }
         for (Wide column = low; column <= high; ++column) {

@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t largest_coordinate = std::int64_t{1} << 60;
 /// More cells, or more integer lines through the triangles, than any wanted mesh has; keeps the
 /// work on a senseless map within bounds.
-constexpr std::int64_t largest_count = 200'000'000;
+constexpr std::int64_t largest_count = 50'000'000;
 
 bool is_within(Coordinate z, std::int64_t bound) {
     return z.u >= -bound && z.u <= bound && z.v >= -bound && z.v <= bound;
@@ -26,6 +26,8 @@ void check_sizes(const GridMap& map) {
         to_index(map.topology.triangle_count) == triangles &&
         map.topology.origin.size() == 3 * triangles &&
         map.topology.vertex_count == map.mesh.vertex_count &&
+        map.topology.twin.size() == 3 * triangles && map.topology.edge.size() == 3 * triangles &&
+        map.topology.vertex_half_edge.size() == to_index(map.topology.vertex_count) &&
         std::equal(map.topology.origin.begin(), map.topology.origin.end(), map.mesh.F.data(),
                    map.mesh.F.data() + map.mesh.F.size()) &&
         map.corner.size() == 3 * triangles && map.transition.size() == 3 * triangles &&
@@ -33,6 +35,7 @@ void check_sizes(const GridMap& map) {
     if (!fits) throw GridMapError("the arrays of the grid map do not belong to one mesh");
 }
 
+/// Returns the number of integer lines through the triangles, or more.
 std::int64_t check_triangles(const GridMap& map) {
     Wide doubled_area = 0;
     std::int64_t lines = 0;
@@ -56,14 +59,16 @@ std::int64_t check_triangles(const GridMap& map) {
         doubled_area += area;
         const auto [low_u, high_u] = std::minmax({z[0].u, z[1].u, z[2].u});
         const auto [low_v, high_v] = std::minmax({z[0].v, z[1].v, z[2].v});
-        lines += (high_u - low_u) / GridMap::one + (high_v - low_v) / GridMap::one + 2;
+        lines += (high_u - low_u) / GridMap::one + (high_v - low_v) / GridMap::one;
         if (lines > largest_count ||
             doubled_area / 2 / GridMap::one / GridMap::one > static_cast<Wide>(largest_count)) {
             throw GridMapError(fmt::format(
                 "the grid map has more than {} cells; ask for fewer quads", largest_count));
         }
     }
-    return lines;
+    // A side of length x spans at most one integer line more than it has whole cells, in each of
+    // the two directions.
+    return lines + 2 * std::int64_t{map.topology.triangle_count};
 }
 
 void check_transitions(const GridMap& map) {

@@ -1,7 +1,8 @@
+#include "kinequad/extract/quad_topology.h"
+
 #include <gtest/gtest.h>
 
 #include "kinequad/core/error.h"
-#include "kinequad/extract/quad_topology.h"
 
 namespace kinequad::test {
 namespace {

@@ -1,9 +1,10 @@
+#include "kinequad/extract/verify_quad_mesh.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "kinequad/core/error.h"
-#include "kinequad/extract/verify_quad_mesh.h"
 #include "quad_checks.h"
 #include "support/shapes.h"
 

@@ -12,7 +12,7 @@ namespace kinequad {
 struct DistanceOptions {
     /// No point of a surface is farther than this from a sample on it, in percent of the diagonal
     /// of the input's bounding box.
-    double spacing_percent = 0.5;
+    double spacing_percent = 1;
     /// The spacing is doubled until a surface has at most this many samples inside its triangles.
     int sample_limit = 4'000'000;
     /// The Hausdorff distance is refined where more than this may still be missing: a share of it

@@ -57,7 +57,7 @@ int ChartedMesh::split_edge(int half_edge, double fraction) {
     const int other = twin[at(half_edge)];
     const int turns = rotation[at(half_edge)];
     index.push_back(0);
-    is_boundary.push_back(other < 0 ? 1 : 0);
+    is_boundary.push_back(static_cast<char>(other < 0));
     const int far = halve_triangle(*this, half_edge, fraction, w);
     if (other < 0) {
         twin[at(far)] = -1;

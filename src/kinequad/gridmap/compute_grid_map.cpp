@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "kinequad/core/error.h"
 #include "kinequad/gridmap/quantize.h"
+#include "kinequad/gridmap/refine_map.h"
 #include "kinequad/gridmap/relax_map.h"
 #include "kinequad/gridmap/seamless_map.h"
 
@@ -15,7 +17,8 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-constexpr int most_refinements = 6;
+constexpr int most_rounds = 4;
+constexpr int most_refinements = 12;
 constexpr int relaxing_steps = 8;
 
 double boundary_length(const Topology& topology, const IntrinsicMetric& metric) {
@@ -26,23 +29,30 @@ double boundary_length(const Topology& topology, const IntrinsicMetric& metric) 
     return sum;
 }
 
-/// Cuts the longest side of each of `triangles` and every edge at the singular vertices among their corners.
-void refine(ChartedMesh& mesh, const std::vector<int>& triangles) {
+/// The longest side of each of `triangles` in the plane where its corners are `corners`, each edge once.
+std::vector<int> longest_sides(const ChartedMesh& mesh, const std::vector<Complex>& corners,
+                               const std::vector<int>& triangles) {
     std::vector<int> chosen;
     for (const int t : triangles) {
         int longest = 3 * t;
         for (int h = 3 * t; h < 3 * t + 3; ++h) {
-            const auto length = [&](int e) {
-                return std::abs(mesh.target[at(Topology::next(e))] - mesh.target[at(e)]);
-            };
+            const auto length = [&](int e) { return std::abs(corners[at(Topology::next(e))] - corners[at(e)]); };
             if (length(h) > length(longest)) longest = h;
         }
-        chosen.push_back(longest);
+        chosen.push_back(mesh.twin[at(longest)] >= 0 ? std::min(longest, mesh.twin[at(longest)]) : longest);
     }
-    for (int& h : chosen) h = mesh.twin[at(h)] >= 0 ? std::min(h, mesh.twin[at(h)]) : h;
     std::sort(chosen.begin(), chosen.end());
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-    for (const int h : chosen) mesh.split_edge(h);
+    return chosen;
+}
+
+std::vector<int> reversed_triangles(const std::vector<TargetShape>& shapes,
+                                    const std::vector<Complex>& corners) {
+    std::vector<int> reversed;
+    for (std::size_t t = 0; t < shapes.size(); ++t) {
+        if (!keeps_direction(shapes[t], &corners[3 * t])) reversed.push_back(static_cast<int>(t));
+    }
+    return reversed;
 }
 
 /// Turns the real coordinates of a map whose integers are reached into exact fixed-point numbers.
@@ -100,6 +110,28 @@ std::string describe(const GridMapReport& report) {
         report.fractional_singularities, report.wrong_cone_angles, report.unaligned_boundary_edges);
 }
 
+/// Brings the map to the integers, refining the mesh where its triangles hold the map back, and relaxes
+/// it there. Nothing where refinement does not help.
+std::optional<Eigen::VectorXd> reach_integers(ChartedMesh& mesh, MapVariables& variables, double scale,
+                                              Eigen::VectorXd x, const Eigen::VectorXd& goal,
+                                              const Context& context) {
+    for (int round = 0; round < most_refinements; ++round) {
+        TriangleSystem system(variables);
+        const std::vector<TargetShape> shapes = target_shapes(mesh, scale);
+        Arrival arrival = bring_to_integers(variables, system, shapes, x, goal, context);
+        if (arrival.arrived) return relax_map(variables, system, shapes, arrival.x, relaxing_steps, context);
+        const std::vector<int> sides =
+            longest_sides(mesh, variables.corner_coordinates(arrival.x), arrival.tight);
+        context.write_log(LogLevel::info,
+                          fmt::format("gridmap: {} triangles hold singularities back from the integer grid, "
+                                      "refining",
+                                      arrival.tight.size()));
+        if (sides.empty()) return std::nullopt;
+        x = refine_map(mesh, variables, std::move(arrival.x), sides);
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 double edge_length_for(const Topology& topology, const IntrinsicMetric& metric, int vertex_count) {
@@ -120,50 +152,38 @@ GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric
     separate_singularities(mesh);
 
     std::string obstacle;
-    for (int round = 0; round < most_refinements; ++round) {
-        context.report_progress("grid map", static_cast<double>(round) / most_refinements);
+    for (int round = 0; round < most_rounds; ++round) {
+        context.report_progress("grid map", static_cast<double>(round) / most_rounds);
         const std::vector<char> nodes = find_nodes(mesh);
         const CutGraph cut = cut_to_discs(mesh, nodes);
-        const MapVariables variables = build_map_variables(mesh, cut, nodes);
+        MapVariables variables = build_map_variables(mesh, cut, nodes);
         TriangleSystem system(variables);
-        std::vector<TargetShape> shapes = target_shapes(mesh, 1);
+        const std::vector<TargetShape> shapes = target_shapes(mesh, 1);
         context.write_log(LogLevel::debug,
                           fmt::format("gridmap: {} triangles, {} integer unknowns", mesh.triangle_count(),
                                       variables.integer_count()));
         const SeamlessMap seamless = solve_seamless_map(variables, system, shapes, context);
+        const std::vector<Complex> corners = variables.corner_coordinates(seamless.x);
         if (seamless.reversed_triangles > 0) {
             obstacle = fmt::format("{} triangles stay reversed in the seamless map", seamless.reversed_triangles);
             context.write_log(LogLevel::info, "gridmap: " + obstacle);
-            const std::vector<Complex> corners = variables.corner_coordinates(seamless.x);
-            std::vector<int> reversed;
-            for (std::size_t t = 0; t < shapes.size(); ++t) {
-                if (count_reversed({shapes[t]}, {corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]}) > 0) {
-                    reversed.push_back(static_cast<int>(t));
-                }
+            for (const int h : longest_sides(mesh, mesh.target, reversed_triangles(shapes, corners))) {
+                mesh.split_edge(h);
             }
-            refine(mesh, reversed);
             continue;
         }
-        context.report_progress("grid map", (round + 0.3) / most_refinements);
-        const ConeTriangulation cone(mesh, variables, variables.corner_coordinates(seamless.x),
-                                     seamless.integers);
+        const ConeTriangulation cone(mesh, variables, corners, seamless.integers);
         const Quantization whole =
             quantize(cone, seamless.stiffness, seamless.best_integers, quad_count, context);
         context.write_log(LogLevel::debug, fmt::format("gridmap: {} quads at scale {:.4f}", whole.quads, whole.scale));
-        context.report_progress("grid map", (round + 0.5) / most_refinements);
-
-        shapes = target_shapes(mesh, whole.scale);
-        const Arrival arrival =
-            bring_to_integers(variables, system, shapes, whole.scale * seamless.x,
-                              variables.lattice * whole.integers, context);
-        if (!arrival.arrived) {
-            obstacle = fmt::format("{} triangles hold singularities back from the integer grid", arrival.tight.size());
-            context.write_log(LogLevel::info, "gridmap: " + obstacle);
-            refine(mesh, arrival.tight);
+        const Eigen::VectorXd goal = variables.lattice * whole.integers;
+        std::optional<Eigen::VectorXd> x =
+            reach_integers(mesh, variables, whole.scale, whole.scale * seamless.x, goal, context);
+        if (!x) {
+            obstacle = "singularities are held back from the integer grid";
             continue;
         }
-        const Eigen::VectorXd x = relax_map(variables, system, shapes, arrival.x, relaxing_steps, context);
-        GridMap map = fix_coordinates(mesh, variables, variables.corner_coordinates(x));
+        GridMap map = fix_coordinates(mesh, variables, variables.corner_coordinates(*x));
         const GridMapReport report = verify_grid_map(map);
         if (report.valid()) {
             context.report_progress("grid map", 1);

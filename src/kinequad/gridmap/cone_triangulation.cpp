@@ -377,6 +377,25 @@ Eigen::VectorXd ConeTriangulation::determinant_gradient(int i) const {
            a.imag() * part(h + 1, 0);
 }
 
+std::vector<int> ConeTriangulation::short_edges(double length) const {
+    std::vector<int> found;
+    for (const int t : alive_) {
+        for (int h = 3 * t; h < 3 * t + 3; ++h) {
+            if (twin_[at(h)] < h && std::norm(displacement_[at(h)]) < length * length) found.push_back(h);
+        }
+    }
+    return found;
+}
+
+double ConeTriangulation::edge_length(int half_edge) const { return std::abs(displacement_[at(half_edge)]); }
+
+Eigen::VectorXd ConeTriangulation::edge_length_gradient(int half_edge) const {
+    const Complex d = displacement_[at(half_edge)] / edge_length(half_edge);
+    const Rows& rows = rows_[at(half_edge)];
+    return d.real() * rows.row(0).cast<double>().transpose() +
+           d.imag() * rows.row(1).cast<double>().transpose();
+}
+
 double ConeTriangulation::area() const {
     double sum = 0;
     for (int i = 0; i < triangle_count(); ++i) sum += determinant(i);

@@ -36,6 +36,11 @@ public:
     double determinant(int i) const;
     /// Derivative of `determinant(i)` by y.
     Eigen::VectorXd determinant_gradient(int i) const;
+    /// One half-edge of every edge shorter than `length` cells.
+    std::vector<int> short_edges(double length) const;
+    /// Length in cells of the edge of a half-edge, and its derivative by y.
+    double edge_length(int half_edge) const;
+    Eigen::VectorXd edge_length_gradient(int half_edge) const;
     /// Area of the whole map in cells: the number of quads once all is whole.
     double area() const;
 

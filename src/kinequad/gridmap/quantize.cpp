@@ -14,6 +14,8 @@ namespace {
 
 /// Twice the area every triangle of cones should keep, in cells; whole triangles have at least 1.
 constexpr double wanted_room = 1.3;
+/// Length every edge between cones should keep, in cells; whole ones have at least 1.
+constexpr double wanted_distance = 1.2;
 constexpr double room_weight = 10;
 
 class Rounding {
@@ -44,6 +46,10 @@ private:
             const double lack = wanted_room - cone_.determinant(i);
             if (lack > 0) sum += room_weight * lack * lack;
         }
+        for (const int h : cone_.short_edges(wanted_distance)) {
+            const double lack = wanted_distance - cone_.edge_length(h);
+            sum += room_weight * lack * lack;
+        }
         return sum;
     }
 
@@ -53,6 +59,12 @@ private:
             if (!is_fixed_[static_cast<std::size_t>(i)]) free.push_back(i);
         }
         return free;
+    }
+
+    static void add_residual(double lack, const Eigen::VectorXd& gradient, Eigen::MatrixXd& matrix,
+                             Eigen::VectorXd& right) {
+        matrix.selfadjointView<Eigen::Lower>().rankUpdate(gradient, room_weight);
+        right += room_weight * lack * gradient;
     }
 
     /// Gauss-Newton steps on `energy` over the unknowns that are not fixed.
@@ -66,10 +78,11 @@ private:
             Eigen::VectorXd right = (stiffness_ * (best_ - cone_.integers()))(free);
             for (int t = 0; t < cone_.triangle_count(); ++t) {
                 const double lack = wanted_room - cone_.determinant(t);
-                if (lack <= 0) continue;
-                const Eigen::VectorXd gradient = cone_.determinant_gradient(t)(free);
-                matrix.selfadjointView<Eigen::Lower>().rankUpdate(gradient, room_weight);
-                right += room_weight * lack * gradient;
+                if (lack > 0) add_residual(lack, cone_.determinant_gradient(t)(free), matrix, right);
+            }
+            for (const int h : cone_.short_edges(wanted_distance)) {
+                add_residual(wanted_distance - cone_.edge_length(h), cone_.edge_length_gradient(h)(free),
+                             matrix, right);
             }
             const Eigen::VectorXd direction = matrix.selfadjointView<Eigen::Lower>().llt().solve(right);
             bool moved = false;

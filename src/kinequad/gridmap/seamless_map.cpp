@@ -108,14 +108,8 @@ std::pair<Complex, Complex> projected(Complex a, Complex b) {
 
 }  // namespace
 
-int count_reversed(const std::vector<TargetShape>& shapes, const std::vector<Complex>& corners) {
-    int count = 0;
-    for (std::size_t t = 0; t < shapes.size(); ++t) {
-        const Complex a = shapes[t].conformal_part(&corners[3 * t]);
-        const Complex b = shapes[t].anticonformal_part(&corners[3 * t]);
-        count += std::abs(b) < a.real() ? 0 : 1;
-    }
-    return count;
+bool keeps_direction(const TargetShape& shape, const Complex* corners) {
+    return std::abs(shape.anticonformal_part(corners)) < shape.conformal_part(corners).real();
 }
 
 SeamlessMap solve_seamless_map(const MapVariables& variables, TriangleSystem& system,
@@ -137,7 +131,10 @@ SeamlessMap solve_seamless_map(const MapVariables& variables, TriangleSystem& sy
     for (int round = 0; round < most_rounds; ++round) {
         context.check_cancelled();
         const std::vector<Complex> corners = variables.corner_coordinates(map.x);
-        map.reversed_triangles = count_reversed(shapes, corners);
+        map.reversed_triangles = 0;
+        for (std::size_t t = 0; t < shapes.size(); ++t) {
+            map.reversed_triangles += keeps_direction(shapes[t], &corners[3 * t]) ? 0 : 1;
+        }
         if (map.reversed_triangles == 0) break;
         for (std::size_t t = 0; t < shapes.size(); ++t) {
             parts[t] = projected(shapes[t].conformal_part(&corners[3 * t]),

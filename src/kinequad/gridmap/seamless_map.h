@@ -21,7 +21,8 @@ struct SeamlessMap {
 SeamlessMap solve_seamless_map(const MapVariables& variables, TriangleSystem& system,
                                const std::vector<TargetShape>& shapes, const Context& context);
 
-/// Number of triangles whose image is mirrored or turned by more than a right angle against the chart.
-int count_reversed(const std::vector<TargetShape>& shapes, const std::vector<Complex>& corners);
+/// Whether the image of a triangle, `corners` three of them, is neither mirrored nor turned by more than a
+/// right angle against its chart.
+bool keeps_direction(const TargetShape& shape, const Complex* corners);
 
 }  // namespace kinequad

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <queue>
@@ -124,16 +125,22 @@ double stiffness_of(const FieldProblem& problem, const AngleSolver& solver,
     return pi * pi / 4 * static_cast<double>(path.size()) - r.dot(solver.apply_inverse(r));
 }
 
+/// A stiffness that no path of `steps` edges is expected to fall below: seven tenths of that of two
+/// vertices of the regular triangular lattice at the distance that so many edges span, `pi^2/4 R`,
+/// `R = (ln d + gamma + ln(12)/2) / (pi sqrt(3))`. Spares solving for pairs that cannot pay.
+double least_stiffness(std::size_t steps) {
+    const double distance = std::max(1.0, 0.8 * static_cast<double>(steps));
+    return 0.7 * pi / (4 * std::numbers::sqrt3) * (std::log(distance) + 1.8196);
+}
+
 double gain_of(const SingularityPrice& price, const SolvedField& field,
                const Candidate& candidate) {
     double gain = candidate.stiffness;
     for (const PathStep& step : candidate.path) {
         gain += pi * step.change * field.residual[step.edge];
     }
-    const int from = field.index[candidate.from];
-    const int to = field.index[candidate.to];
-    return gain + price(candidate.from, from + 1) - price(candidate.from, from) +
-           price(candidate.to, to - 1) - price(candidate.to, to);
+    return gain + price.change(field.index, field.neighbours, candidate.from, candidate.to, 1,
+                               candidate.path.size() == 1);
 }
 
 }  // namespace
@@ -147,6 +154,8 @@ SolvedField cancel_pairs(const FieldProblem& problem, const AngleSolver& solver,
             if (field.index[v] >= 0) continue;
             context.check_cancelled();
             for (Candidate& candidate : finder.find(field, v)) {
+                candidate.stiffness = least_stiffness(candidate.path.size());
+                if (gain_of(price, field, candidate) >= 0) continue;
                 candidate.stiffness = stiffness_of(problem, solver, candidate.path);
                 candidate.gain = gain_of(price, field, candidate);
                 if (candidate.gain < 0) candidates.push_back(std::move(candidate));

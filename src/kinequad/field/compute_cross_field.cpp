@@ -30,7 +30,8 @@ FieldState search_field(const FieldProblem& problem, const Topology& topology,
                         const IntrinsicMetric& metric, const CrossFieldOptions& options,
                         const Context& context) {
     const AngleSolver solver(problem);
-    const SingularityPrice price(topology, options.singularity_cost);
+    const SingularityPrice price(problem, topology, options.singularity_cost,
+                                 options.adjacency_cost);
     const auto search = [&](const FieldProblem& form, FieldState state) {
         SolvedField field = solve_field(form, solver, price, std::move(state));
         field = improve_periods(form, solver, price, std::move(field), context);
@@ -53,7 +54,7 @@ FieldState round_field(const FieldProblem& problem, const Topology& topology,
                        const Context& context) {
     const AngleSolver solver(problem);
     // Without a price singularities stay where rounding puts them, but for those that admit no map.
-    const SingularityPrice price(topology, 0);
+    const SingularityPrice price(problem, topology, 0, 0);
     SolvedField field = solve_field(problem, solver, price, round_greedily(problem, context));
     if (price.sum(field.index) > 0) {
         field = improve_periods(problem, solver, price, std::move(field), context);

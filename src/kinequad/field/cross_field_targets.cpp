@@ -47,8 +47,8 @@ CrossFieldTargets compute_cross_field_targets(const Topology& topology,
             const double sum = tensors.stretch_sum[t];
             if (!(sum > 0)) continue;
             const double stretch =
-                std::min(tensors.stretch_square_sum[t] / sum, options.largest_stretch);
-            if (stretch < smallest_paper_weight * options.largest_stretch) continue;
+                std::min(1.0, tensors.stretch_square_sum[t] / sum / options.largest_stretch);
+            if (stretch < smallest_paper_weight) continue;
             set(t, tensors.stretch_direction_sum[t], ratio * stretch);
         }
         return targets;

@@ -31,8 +31,7 @@ double step_gain(const FieldProblem& problem, const SingularityPrice& price,
     const int b = problem.head[at(edge)];
     const double energy =
         pi * pi / 4 * (rigid ? 1 : step_share) + pi * change * field.residual[edge];
-    return energy + price(a, field.index[a] + change) - price(a, field.index[a]) +
-           price(b, field.index[b] - change) - price(b, field.index[b]);
+    return energy + price.change(field.index, field.neighbours, a, b, change, true);
 }
 
 /// Steps that promise to lower the cost, best first, no two of which touch the same vertex.
@@ -63,30 +62,67 @@ std::vector<Step> promising_steps(const FieldProblem& problem, const Singularity
 
 }  // namespace
 
-SingularityPrice::SingularityPrice(const Topology& topology, double singularity_cost)
-    : boundary_(at(topology.vertex_count)), cost_(singularity_cost) {
+SingularityPrice::SingularityPrice(const FieldProblem& problem, const Topology& topology,
+                                   double singularity_cost, double adjacency_cost)
+    : problem_(problem),
+      boundary_(at(topology.vertex_count)),
+      singularity_cost_(singularity_cost),
+      adjacency_cost_(adjacency_cost) {
     for (int v = 0; v < topology.vertex_count; ++v) {
         boundary_[at(v)] = topology.is_boundary_vertex(v);
     }
 }
 
-double SingularityPrice::operator()(int vertex, int index) const {
+double SingularityPrice::vertex_price(int vertex, int index) const {
     // A map needs a positive angle (4 - index quarters, on the boundary 2 - index) at every vertex;
     // the prices of what has none, or nearly none, outweigh any energy.
     const int angle = (boundary_[at(vertex)] ? 2 : 4) - index;
-    double price = cost_ * std::abs(index);
+    double price = singularity_cost_ * std::abs(index);
     if (angle <= 0) price += 1e3 * (1 - angle);
     if (angle == 1 && !boundary_[at(vertex)]) price += 10;
     if (index < -4) price += 10 * (-4 - index);
     return price;
 }
 
+Eigen::VectorXi SingularityPrice::singular_neighbours(const Eigen::VectorXi& index) const {
+    Eigen::VectorXi count = Eigen::VectorXi::Zero(index.size());
+    for (int e = 0; e < problem_.edge_count; ++e) {
+        const int a = problem_.tail[at(e)];
+        const int b = problem_.head[at(e)];
+        if (index[b] != 0) ++count[a];
+        if (index[a] != 0) ++count[b];
+    }
+    return count;
+}
+
 double SingularityPrice::sum(const Eigen::VectorXi& index) const {
     double result = 0;
     for (int v = 0; v < index.size(); ++v) {
-        if (index[v] != 0) result += (*this)(v, index[v]);
+        if (index[v] != 0) result += vertex_price(v, index[v]);
+    }
+    for (int e = 0; e < problem_.edge_count; ++e) {
+        if (index[problem_.tail[at(e)]] != 0 && index[problem_.head[at(e)]] != 0) {
+            result += adjacency_cost_;
+        }
     }
     return result;
+}
+
+double SingularityPrice::change(const Eigen::VectorXi& index, const Eigen::VectorXi& neighbours,
+                                int from, int to, int change, bool joined) const {
+    const int from_after = index[from] + change;
+    const int to_after = index[to] - change;
+    const int from_was = index[from] != 0 ? 1 : 0;
+    const int to_was = index[to] != 0 ? 1 : 0;
+    const int from_is = from_after != 0 ? 1 : 0;
+    const int to_is = to_after != 0 ? 1 : 0;
+    int pairs = (from_is - from_was) * neighbours[from] + (to_is - to_was) * neighbours[to];
+    if (joined) {
+        // The edge between the two was counted as if the other end did not change.
+        pairs += (from_is - from_was) * (to_is - to_was);
+    }
+    return vertex_price(from, from_after) - vertex_price(from, index[from]) +
+           vertex_price(to, to_after) - vertex_price(to, index[to]) + adjacency_cost_ * pairs;
 }
 
 SolvedField solve_field(const FieldProblem& problem, const AngleSolver& solver,
@@ -95,6 +131,7 @@ SolvedField solve_field(const FieldProblem& problem, const AngleSolver& solver,
     field.state = solver.solve(problem, std::move(state));
     field.residual = edge_residuals(problem, field.state);
     field.index = singularity_indices(problem, field.residual);
+    field.neighbours = price.singular_neighbours(field.index);
     field.energy = field_energy(problem, field.state, field.residual);
     field.cost = field.energy + price.sum(field.index);
     return field;

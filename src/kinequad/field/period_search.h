@@ -4,26 +4,39 @@
 
 namespace kinequad {
 
+/// What singularities cost in energy: by their index, and more where a mesh edge joins two of them,
+/// as no integer-grid map has room there.
+class SingularityPrice {
+public:
+    SingularityPrice(const FieldProblem& problem, const Topology& topology, double singularity_cost,
+                     double adjacency_cost);
+    /// Price of all singularities (n).
+    double sum(const Eigen::VectorXi& index) const;
+    /// Number of singular vertices beside every vertex (n).
+    Eigen::VectorXi singular_neighbours(const Eigen::VectorXi& index) const;
+    /// What the price changes by when the index of `from` rises by `change` and that of `to` falls
+    /// by it.
+    double change(const Eigen::VectorXi& index, const Eigen::VectorXi& neighbours, int from, int to,
+                  int change, bool joined) const;
+
+private:
+    double vertex_price(int vertex, int index) const;
+
+    const FieldProblem& problem_;
+    std::vector<bool> boundary_;
+    double singularity_cost_;
+    double adjacency_cost_;
+};
+
 /// A solved field with everything that the search over its periods asks for. Internal to this
 /// stage.
 struct SolvedField {
     FieldState state;
-    Eigen::VectorXd residual;  ///< e: w_e
-    Eigen::VectorXi index;     ///< n: quarters
+    Eigen::VectorXd residual;    ///< e: w_e
+    Eigen::VectorXi index;       ///< n: quarters
+    Eigen::VectorXi neighbours;  ///< n: singular vertices beside a vertex
     double energy = 0;
     double cost = 0;  ///< energy plus the price of the singularities
-};
-
-/// What singularities cost in energy, by their index.
-class SingularityPrice {
-public:
-    SingularityPrice(const Topology& topology, double singularity_cost);
-    double operator()(int vertex, int index) const;
-    double sum(const Eigen::VectorXi& index) const;
-
-private:
-    std::vector<bool> boundary_;
-    double cost_;
 };
 
 /// Re-solves the angles for the periods of `state` and evaluates the result.

@@ -9,9 +9,12 @@
 
 #include "kinequad/core/error.h"
 #include "kinequad/io/memory_sequence.h"
+#include "kinequad/io/read_polygon_mesh.h"
 #include "kinequad/measure/format_metrics.h"
+#include "kinequad/measure/triangulation.h"
 #include "kinequad/transfer/bind_to_surface.h"
 #include "quad_grid.h"
+#include "support/data.h"
 #include "support/shapes.h"
 
 namespace kinequad {
@@ -165,6 +168,26 @@ TEST(MeasureSequence, RefusesWhatDoesNotFit) {
     EXPECT_THROW(measure_sequence(single, stand_still(make_polygons(grid.Q), X)), InputError);
     EXPECT_THROW(measure_sequence(single, stand_still(make_polygons(grid.Q), grid.X.topRows(3))),
                  InputError);
+}
+
+TEST(MeasureSequence, AgreesWithAnIndependentProgramOnAnArtistsQuads) {
+    KINEQUAD_REQUIRE_DATA();
+    const auto folder = test::data_folder() / "sequences";
+    const PolygonMesh quads = read_polygon_mesh(folder / "makehuman_body_quads.obj");
+    const PolygonMesh input = read_polygon_mesh(folder / "makehuman_walk.obj");
+    const MemorySequence pose(triangulate_for_measuring(input.faces, input.V).F, {input.V});
+    const SequenceMetrics m = measure_sequence(pose, stand_still(quads.faces, quads.V));
+    EXPECT_EQ(m.quads.vertices, 13380);
+    EXPECT_EQ(m.quads.quads, 13378);
+    EXPECT_EQ(m.quads.irregular_vertices, 320);
+    EXPECT_EQ(m.quads.euler_characteristic, 2);
+    const QuadShapeMetrics& shape = m.frames.at(0).shape;
+    EXPECT_NEAR(shape.angle_deviation_mean, 12.169, 5.1e-4);
+    EXPECT_NEAR(shape.angle_deviation_max, 78.38, 5.1e-3);
+    EXPECT_NEAR(shape.scaled_jacobian_min, 0.0554, 5.1e-5);
+    EXPECT_NEAR(shape.scaled_jacobian_mean, 0.9253, 5.1e-5);
+    EXPECT_EQ(shape.folded_quads, 0);
+    EXPECT_EQ(m.frames.at(0).flipped_quads, 0);
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ TriangleMesh soup(int count, std::uint64_t seed) {
 }
 
 TEST(SurfaceDistance, HoldsADenseSampleWithinItsBounds) {
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const TriangleMesh a = soup(20, seed);
         const TriangleMesh b = soup(30, seed + 100);
         const SurfaceDistance d = measure_distance(a, b);

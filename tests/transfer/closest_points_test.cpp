@@ -111,7 +111,7 @@ TEST(ClosestPointOnTriangle, IsNoFartherThanADenseSample) {
 }
 
 TEST(ClosestPoints, AgreesWithBruteForceOnSoups) {
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const TriangleMesh soup = random_soup(400, seed);
         expect_same_as_brute_force(soup, ClosestPoints(soup.V, soup.F), Vector3::Zero(), 1, 400);
     }
@@ -133,7 +133,7 @@ TEST(ClosestPoints, AgreesWithBruteForceAtEveryScaleAndFarFromTheOrigin) {
 TEST(ClosestPoints, AgreesWithBruteForceAfterUpdates) {
     TriangleMesh soup = random_soup(400, 8);
     ClosestPoints surface(soup.V, soup.F);
-    for (const std::uint64_t seed : {9, 10}) {
+    for (const std::uint64_t seed : {9U, 10U}) {
         soup = random_soup(400, seed);
         soup.F.col(0).swap(soup.F.col(2));
         surface.update(soup.V, soup.F);

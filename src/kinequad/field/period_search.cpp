@@ -10,6 +10,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int largest_rounds = 60;
+/// Single steps in a row that kept less than they promised, after which the search ends.
+constexpr int largest_failures = 8;
 /// Share of one period step's energy that no re-solving of the angles takes back, by measurement.
 constexpr double step_share = 1.0 / 3;
 /// Improvements below this are rounding.
@@ -141,25 +143,27 @@ SolvedField improve_periods(const FieldProblem& problem, const AngleSolver& solv
                             const SingularityPrice& price, SolvedField field,
                             const Context& context) {
     std::vector<bool> banned(at(problem.edge_count), false);
-    for (int round = 0; round < largest_rounds; ++round) {
+    std::size_t batch = at(problem.edge_count);
+    int failures = 0;
+    for (int round = 0; round < largest_rounds && failures < largest_failures; ++round) {
         context.check_cancelled();
         std::vector<Step> steps = promising_steps(problem, price, field, banned);
-        bool improved = false;
-        while (!steps.empty() && !improved) {
-            FieldState state = field.state;
-            for (const Step& step : steps) state.period_jump[step.edge] += step.change;
-            SolvedField next = solve_field(problem, solver, price, std::move(state));
-            if (next.cost < field.cost - least_gain) {
-                field = std::move(next);
-                improved = true;
-            } else if (steps.size() == 1) {
-                banned[at(steps[0].edge)] = true;
-                break;
-            } else {
-                steps.resize((steps.size() + 3) / 4);
-            }
-        }
         if (steps.empty()) break;
+        steps.resize(std::min(steps.size(), batch));
+        FieldState state = field.state;
+        for (const Step& step : steps) state.period_jump[step.edge] += step.change;
+        SolvedField next = solve_field(problem, solver, price, std::move(state));
+        if (next.cost < field.cost - least_gain) {
+            field = std::move(next);
+            batch *= 2;
+            failures = 0;
+        } else {
+            if (steps.size() == 1) {
+                banned[at(steps[0].edge)] = true;
+                ++failures;
+            }
+            batch = (steps.size() + 3) / 4;
+        }
     }
     return field;
 }

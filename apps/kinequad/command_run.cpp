@@ -1,0 +1,201 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "commands.h"
+#include "input_options.h"
+#include "kinequad/core/error.h"
+#include "kinequad/io/files.h"
+#include "kinequad/io/frame_digest.h"
+#include "kinequad/io/frame_sink.h"
+#include "kinequad/io/write_mesh.h"
+#include "kinequad/measure/measure_sequence.h"
+#include "kinequad/pipeline/dump_stage.h"
+#include "kinequad/pipeline/quadrangulate.h"
+#include "kinequad/pipeline/run_record.h"
+#include "kinequad/pipeline/write_quad_frames.h"
+#include "kinequad/transfer/transfer.h"
+#include "output_folder.h"
+#include "print_summary.h"
+
+namespace kinequad::app {
+namespace {
+
+struct RunCommand {
+    InputOptions input_options;
+    Options options;
+    std::string input;
+    std::string output;
+    std::string symmetry = "none";
+    std::string field = "convex";
+    std::string metric;
+    std::string reference = "0";
+    std::string format;
+    std::string dump_directory;
+    bool no_metrics = false;
+    bool json = false;
+};
+
+Options options_of(const RunCommand& command, const FrameSource& source) {
+    Options options = command.options;
+    if (command.field == "paper") options.field = CrossFieldMethod::paper;
+    if (command.metric == "mean") options.metric = MetricChoice::mean;
+    if (command.metric == "reference") options.metric = MetricChoice::reference;
+    options.reference = parse_reference(command.reference, source);
+    options.metrics = !command.no_metrics;
+    return options;
+}
+
+/// Writes the quads in every frame; returns the digest of the input.
+std::string write_frames(const RunCommand& command, const Result& result, const FrameSource& source,
+                         OutputFolder& output, const Context& context) {
+    for (const char* name : {"quads", "quads.obj", "quads.ply", "quads.pc2", "quads.mdd"}) {
+        output.replace_earlier(name);
+    }
+    const bool is_single = source.frame_count() == 1;
+    const std::string name = !command.format.empty() ? command.format : is_single ? "obj" : "pc2";
+    const SequenceFormat format = *find_sequence_format(name);
+    const bool is_cache = format == SequenceFormat::pc2 || format == SequenceFormat::mdd;
+    if (is_single && !is_cache) {
+        const Positions V = source.read_frame(0);
+        write_mesh(output.path("quads." + name),
+                   quad_positions(result.quads, V, source.triangles()), result.quads.Q);
+        return compute_digest(source);
+    }
+    const Positions rest = quad_positions(
+        result.quads, source.has_rest_shape() ? source.read_rest_shape() : result.reference,
+        source.triangles());
+    const auto sink = create_frame_sink(output.path(is_cache ? "" : "quads"), "quads", format,
+                                        make_polygons(result.quads.Q), source.frame_count(), rest);
+    return write_quad_frames(result.quads, source, *sink, context);
+}
+
+SequenceMetrics measure(const Result& result, const FrameSource& source, const Context& context) {
+    StretchReference reference;
+    reference.V = result.reference;
+    reference.F = source.triangles();
+    reference.sides = triangle_sides(result.topology, metric_of(result.topology, result.reference));
+    reference.X = quad_positions(result.quads, result.reference, source.triangles());
+    reference.faces = make_polygons(result.quads.Q);
+    return measure_sequence(source, follow_surface(result.quads, source.triangles()), reference, {},
+                            context);
+}
+
+void run(const RunCommand& command, Session& session) {
+    const Context context = session.make_context();
+    StageClock clock;
+    std::vector<StageTime> opening;
+    const std::unique_ptr<FrameSource> source = command.input_options.open(command.input);
+    OutputFolder output(command.output);
+    clock.finish_stage("open", opening);
+
+    StageObserver observe;
+    if (!command.dump_directory.empty()) {
+        observe = [&](std::string_view stage, const Result& so_far) {
+            dump_stage(command.dump_directory, stage, so_far);
+        };
+    }
+    Result result = quadrangulate(*source, options_of(command, *source), context, observe);
+    result.times.insert(result.times.begin(), opening.begin(), opening.end());
+
+    clock = StageClock();
+    const std::string digest = write_frames(command, result, *source, output, context);
+    write_file_atomically(output.path("binding.json"),
+                          format_binding(result.quads, source->triangles()));
+    clock.finish_stage("frames", result.times);
+
+    std::optional<SequenceMetrics> metrics;
+    if (result.options.metrics) {
+        metrics = measure(result, *source, context);
+        clock.finish_stage("metrics", result.times);
+    }
+    const nlohmann::ordered_json record = make_run_record(result, *source, digest, metrics);
+    const std::string text = record.dump(2) + "\n";
+    write_file_atomically(output.path("run.json"), text);
+    context.check_cancelled();
+    output.commit();
+
+    session.finish();
+    fmt::print("{}",
+               command.json ? text : format_run_summary(record, metrics, output.final_path("")));
+}
+
+void add_method_options(CLI::App& app, RunCommand& command) {
+    Options& options = command.options;
+    CLI::Option* vertices = app.add_option("--vertices", options.vertices,
+                                           "Wanted number of quad vertices, met within 5 %")
+                                ->check(CLI::Range(8, 100'000'000))
+                                ->capture_default_str();
+    app.add_option("--edge-length", options.edge_length,
+                   "Wanted edge length of the quads instead, in units of the input")
+        ->check(CLI::PositiveNumber)
+        ->excludes(vertices);
+    app.add_option("--symmetry", command.symmetry,
+                   "How the quads are made symmetric; this version knows none only")
+        ->check([](const std::string& value) {
+            return value == "none" ? std::string()
+                                   : "'" + value + "' is not in this version; leave it at none";
+        })
+        ->capture_default_str();
+    app.add_option(
+           "--field", command.field,
+           "Recipe of the cross field: convex (fewer singularities, faster) or paper (the energy "
+           "and greedy solver of Du and Tu)")
+        ->check(CLI::IsMember({"convex", "paper"}))
+        ->capture_default_str();
+    app.add_option(
+        "--alpha", options.alpha,
+        fmt::format("Influence of the animation, from 0 (see the reference frame only) to below "
+                    "1 [{} with convex, {} with paper]",
+                    default_alpha(CrossFieldMethod::convex),
+                    default_alpha(CrossFieldMethod::paper)));
+    app.add_option("--curvature", options.curvature, "Influence of the curvature (convex only)")
+        ->capture_default_str();
+    app.add_option("--singularity-cost", options.singularity_cost,
+                   "Energy that one singularity may cost, in squared radians (convex only)")
+        ->capture_default_str();
+    app.add_option("--metric", command.metric,
+                   "Edge lengths that the surface is known by: mean (over the frames) or reference "
+                   "[mean; reference with --alpha 0]")
+        ->check(CLI::IsMember({"mean", "reference"}));
+    app.add_option("--reference", command.reference,
+                   "Reference frame, counted from 0, or rest: the OBJ beside a PC2 or MDD cache")
+        ->capture_default_str();
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, Session& session) {
+    const auto command = std::make_shared<RunCommand>();
+    CLI::App& app = *program.add_subcommand(
+        "run", "Makes one quad mesh for all frames of an animated triangle mesh");
+    app.add_option(
+           "INPUT", command->input,
+           "Folder or glob of OBJ, PLY or OFF frames, OBJ with a .pc2 or .mdd of the same name "
+           "beside it, or a single mesh")
+        ->required();
+    app.add_option(
+           "-o,--output", command->output,
+           "Folder for the quad sequence, run.json and binding.json; made where it is absent")
+        ->required();
+    add_method_options(app, *command);
+    app.add_option(
+           "--format", command->format,
+           "Of the quad sequence: obj or ply (a file a frame), pc2 or mdd (an OBJ with a cache) "
+           "[pc2; obj for a single mesh]")
+        ->check(CLI::IsMember({"obj", "ply", "pc2", "mdd"}));
+    app.add_flag("--no-metrics", command->no_metrics, "Do not measure the result");
+    app.add_flag("--json", command->json, "Print run.json on stdout instead of the summary");
+    app.add_option("--dump-stages", command->dump_directory,
+                   "Folder for what each stage made, as JSON, for inspection");
+    command->input_options.add_options(app);
+    session.add_options(app);
+    app.callback([command, &session] { run(*command, session); });
+}
+
+}  // namespace kinequad::app

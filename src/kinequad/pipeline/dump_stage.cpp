@@ -1,0 +1,106 @@
+#include "kinequad/pipeline/dump_stage.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "kinequad/io/files.h"
+
+namespace kinequad {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Scalar>
+Json list(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& values) {
+    return std::vector<Scalar>(values.data(), values.data() + values.size());
+}
+
+Json list(const Eigen::VectorXcd& values) {
+    Json result = Json::array();
+    for (const Complex& value : values) result.push_back({value.real(), value.imag()});
+    return result;
+}
+
+template <int columns, class Scalar>
+Json rows(const Eigen::Matrix<Scalar, Eigen::Dynamic, columns, Eigen::RowMajor>& matrix) {
+    Json result = Json::array();
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+        Json row = Json::array();
+        for (int k = 0; k < columns; ++k) row.push_back(matrix(i, k));
+        result.push_back(std::move(row));
+    }
+    return result;
+}
+
+Json check_record(const Result& result) {
+    return {{"twin", result.topology.twin},
+            {"edge", result.topology.edge},
+            {"edge_half_edge", result.topology.edge_half_edge},
+            {"vertex_half_edge", result.topology.vertex_half_edge},
+            {"reference", rows<3>(result.reference)}};
+}
+
+Json deformation_record(const DeformationTensors& tensors) {
+    return {{"frame_count", tensors.frame_count},
+            {"shear", list(tensors.shear)},
+            {"shear_strength", list(tensors.shear_strength)},
+            {"stretch_direction_sum", list(tensors.stretch_direction_sum)},
+            {"stretch_sum", list(tensors.stretch_sum)},
+            {"stretch_square_sum", list(tensors.stretch_square_sum)},
+            {"curvature", list(tensors.curvature)}};
+}
+
+Json field_record(const CrossField& field) {
+    return {{"angle", list(field.angle)},
+            {"period_jump", list(field.period_jump)},
+            {"index", list(field.index)},
+            {"energy", field.energy}};
+}
+
+Json map_record(const GridMap& map) {
+    Json corners = Json::array();
+    for (const GridMap::Coordinate& z : map.corner) corners.push_back({z.u, z.v});
+    Json transitions = Json::array();
+    for (const GridMap::Transition& transition : map.transition) {
+        transitions.push_back(
+            {transition.rotation, transition.translation.u, transition.translation.v});
+    }
+    return {{"fraction_bits", GridMap::fraction_bits},
+            {"triangles", rows<3>(map.mesh.F)},
+            {"parent", map.mesh.parent},
+            {"barycentric", rows<3>(map.mesh.barycentric)},
+            {"corner", corners},
+            {"transition", transitions},
+            {"index", list(map.index)}};
+}
+
+Json quads_record(const QuadMesh& quads) {
+    Json vertices = Json::array();
+    for (const SurfacePoint& point : quads.vertex) {
+        vertices.push_back(
+            {point.triangle, point.barycentric[0], point.barycentric[1], point.barycentric[2]});
+    }
+    return {{"quads", rows<4>(quads.Q)}, {"vertex", vertices}, {"mirror", quads.mirror}};
+}
+
+Json record_of(std::string_view stage, const Result& result) {
+    if (stage == "check") return check_record(result);
+    if (stage == "metric") {
+        return {{"edge_length", list(result.metric.edge_length)},
+                {"quad_edge_length", result.edge_length}};
+    }
+    if (stage == "deformation") return deformation_record(result.tensors);
+    if (stage == "field") return field_record(result.field);
+    if (stage == "map") return map_record(result.map);
+    return quads_record(result.quads);
+}
+
+}  // namespace
+
+void dump_stage(const std::filesystem::path& directory, std::string_view stage,
+                const Result& so_far) {
+    write_file_atomically(directory / (std::string(stage) + ".json"),
+                          record_of(stage, so_far).dump() + "\n");
+}
+
+}  // namespace kinequad

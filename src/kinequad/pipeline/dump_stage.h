@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "kinequad/pipeline/result.h"
+
+namespace kinequad {
+
+/// Writes what the stage `stage` of `quadrangulate` made to `directory`/`stage`.json, for
+/// inspection and comparison: names as in the stage's struct, complex numbers as [re, im]. Throws
+/// `InputError` (file) where the disk refuses.
+void dump_stage(const std::filesystem::path& directory, std::string_view stage,
+                const Result& so_far);
+
+}  // namespace kinequad

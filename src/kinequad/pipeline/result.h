@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "kinequad/deformation/deformation_tensors.h"
+#include "kinequad/extract/quad_mesh.h"
+#include "kinequad/field/cross_field.h"
+#include "kinequad/gridmap/grid_map.h"
+#include "kinequad/mesh/intrinsic_metric.h"
+#include "kinequad/mesh/topology.h"
+#include "kinequad/pipeline/options.h"
+#include "kinequad/pipeline/stage_clock.h"
+
+namespace kinequad {
+
+/// What every stage of a run made.
+struct Result {
+    Options options;         ///< as given, with empty fields filled in
+    double edge_length = 0;  ///< wanted edge length of the quads, in units of the input
+    Topology topology;       ///< of the input
+    Positions reference;     ///< n x 3: the input in the reference frame
+    IntrinsicMetric metric;  ///< that the field and the map were made for
+    DeformationTensors tensors;
+    CrossField field;
+    GridMap map;
+    QuadMesh quads;
+    std::vector<StageTime> times;  ///< of the stages in the order they ran
+};
+
+/// Called after each stage with its name and all that is there so far: to write intermediate
+/// results.
+using StageObserver = std::function<void(std::string_view stage, const Result& so_far)>;
+
+}  // namespace kinequad

@@ -1,0 +1,140 @@
+#include "kinequad/pipeline/run_record.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "kinequad/measure/format_metrics.h"
+#include "kinequad/pipeline/version.h"
+
+namespace kinequad {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json options_record(const Options& options) {
+    const bool rest = options.reference == Options::rest_shape;
+    return {
+        {"symmetry", "none"},
+        {"vertices", options.vertices},
+        {"edge_length", options.edge_length},
+        {"field", options.field == CrossFieldMethod::paper ? "paper" : "convex"},
+        {"alpha", *options.alpha},
+        {"curvature", options.curvature},
+        {"singularity_cost", options.singularity_cost},
+        {"metric", options.metric == MetricChoice::mean ? "mean" : "reference"},
+        {"reference", rest ? Json("rest") : Json(options.reference)},
+        {"metrics", options.metrics},
+    };
+}
+
+Json counts_record(const SurfaceCounts& counts) {
+    return {{"vertices", counts.vertices},
+            {"edges", counts.edges},
+            {"triangles", counts.triangles},
+            {"components", counts.components},
+            {"boundary_loops", counts.boundary_loops},
+            {"euler_characteristic", counts.euler_characteristic}};
+}
+
+Json field_record(const Result& result) {
+    std::map<int, int> vertices_of_index;
+    int inside = 0;
+    for (int v = 0; v < result.topology.vertex_count; ++v) {
+        const int index = result.field.index[v];
+        if (index == 0) continue;
+        if (result.topology.is_boundary_vertex(v)) continue;
+        ++vertices_of_index[index];
+        ++inside;
+    }
+    Json by_index = Json::object();
+    for (const auto& [index, count] : vertices_of_index)
+        by_index[fmt::format("{:+}", index)] = count;
+    return {{"energy", result.field.energy},
+            {"singularities", inside},
+            {"singularities_by_index_in_quarters", by_index},
+            {"index_sum_in_quarters", result.field.index.sum()}};
+}
+
+Json map_record(const Result& result) {
+    const GridMapReport report = verify_grid_map(result.map);
+    return {{"triangles", result.map.mesh.F.rows()},
+            {"flipped_triangles", report.flipped_triangles},
+            {"valid", report.valid()}};
+}
+
+Json stages_record(const std::vector<StageTime>& times) {
+    Json stages = Json::array();
+    for (const StageTime& time : times) {
+        stages.push_back({{"stage", time.stage},
+                          {"wall_seconds", time.wall_seconds},
+                          {"cpu_seconds", time.cpu_seconds}});
+    }
+    return stages;
+}
+
+Json total_record(const std::vector<StageTime>& times) {
+    double wall = 0;
+    double cpu = 0;
+    double cpu_of_metrics = 0;
+    for (const StageTime& time : times) {
+        wall += time.wall_seconds;
+        cpu += time.cpu_seconds;
+        if (time.stage == "metrics") cpu_of_metrics += time.cpu_seconds;
+    }
+    return {{"wall_seconds", wall},
+            {"cpu_seconds", cpu},
+            {"cpu_seconds_without_metrics", cpu - cpu_of_metrics}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json make_run_record(const Result& result, const FrameSource& source,
+                                       const std::string& digest,
+                                       const std::optional<SequenceMetrics>& metrics) {
+    Json record;
+    record["program"] = "kinequad";
+    record["version"] = version;
+    record["options"] = options_record(result.options);
+    record["input"] = {
+        {"name", source.name()}, {"digest", digest}, {"frames", source.frame_count()}};
+    record["input"].update(counts_record(count_surface(result.topology)));
+    record["edge_length"] = result.edge_length;
+    record["field"] = field_record(result);
+    record["map"] = map_record(result);
+    record["quads"] = {{"vertices", result.quads.vertex.size()}, {"quads", result.quads.Q.rows()}};
+    record["stages"] = stages_record(result.times);
+    record["total"] = total_record(result.times);
+    record["metrics"] = metrics ? Json(to_json(*metrics)) : Json();
+    return record;
+}
+
+std::string format_binding(const QuadMesh& quads, const Triangles& triangles) {
+    std::string text = "{\"triangle\": [";
+    const auto out = std::back_inserter(text);
+    const char* separator = "";
+    for (const SurfacePoint& point : quads.vertex) {
+        fmt::format_to(out, "{}{}", separator, point.triangle);
+        separator = ", ";
+    }
+    text += "],\n\"barycentric\": [";
+    separator = "";
+    for (const SurfacePoint& point : quads.vertex) {
+        const Vector3& b = point.barycentric;
+        fmt::format_to(out, "{}[{}, {}, {}]", separator, b[0], b[1], b[2]);
+        separator = ",\n";
+    }
+    text += "],\n\"triangles\": [";
+    separator = "";
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+        fmt::format_to(out, "{}[{}, {}, {}]", separator, triangles(t, 0), triangles(t, 1),
+                       triangles(t, 2));
+        separator = ",\n";
+    }
+    text += "]}\n";
+    return text;
+}
+
+}  // namespace kinequad

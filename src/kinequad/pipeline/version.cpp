@@ -1,0 +1,7 @@
+#include "kinequad/pipeline/version.h"
+
+namespace kinequad {
+
+const char* const version = KINEQUAD_VERSION;
+
+}  // namespace kinequad

@@ -2,11 +2,10 @@
 
 #include <png.h>
 
-#include <fstream>
 #include <stdexcept>
-#include <system_error>
+#include <string>
 
-#include "kinequad/core/error.h"
+#include "kinequad/io/files.h"
 
 namespace kinequad {
 
@@ -28,21 +27,7 @@ std::string encode_png(const Image& image) {
 }
 
 void write_png(const std::filesystem::path& path, const Image& image) {
-    const std::string bytes = encode_png(image);
-    // Written beside and renamed, so that a stopped run leaves no half of a picture.
-    std::filesystem::path beside = path;
-    beside += ".part";
-    std::ofstream file(beside, std::ios::binary | std::ios::trunc);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    std::error_code error;
-    if (file) std::filesystem::rename(beside, path, error);
-    if (!file || error) {
-        std::error_code ignored;
-        std::filesystem::remove(beside, ignored);
-        throw InputError(InputFault::file,
-                         path.string() + ": cannot be written; check the folder and free space");
-    }
+    write_file_atomically(path, encode_png(image));
 }
 
 }  // namespace kinequad

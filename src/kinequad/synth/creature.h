@@ -85,6 +85,5 @@ double cyclic_curve(const std::vector<double>& keys, double phase);
 
 Creature make_biped();
 Creature make_quadruped();
-Creature make_gecko();
 
 }  // namespace kinequad::synth_detail

@@ -119,9 +119,9 @@ Pose walk_at(const std::vector<Bone>& bones, const Skeleton& s, double phase) {
         const double fore = stride - 0.25;
         at(bone(s.thigh)) =
             side(turn_x(-cyclic_curve({20, 14, 7, 0, -8, -16, -22, -10, 10, 21}, stride)));
-        at(bone(s.shin)) = side(turn_x(cyclic_curve({-2, 4, 6, 5, 2, -2, 10, 38, 34, 8}, stride)));
+        at(bone(s.shin)) = side(turn_x(cyclic_curve({-2, 4, 6, 5, 2, -2, 8, 28, 26, 7}, stride)));
         at(bone(s.foot)) =
-            side(turn_x(-cyclic_curve({-2, 4, 8, 6, 2, -8, -4, 34, 40, 12}, stride)));
+            side(turn_x(-cyclic_curve({-2, 4, 8, 6, 2, -8, -4, 28, 34, 11}, stride)));
         at(bone(s.upper_arm)) =
             side(turn_x(-cyclic_curve({21, 14, 7, 0, -7, -14, -20, -8, 10, 22}, fore)));
         at(bone(s.forearm)) =

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -148,6 +149,30 @@ int nearest_vertex(const HalfMesh& half, const Vector3& point, bool in_plane) {
     return best;
 }
 
+/// On a coarse mesh two landmarks may fall on one vertex: only the first is kept.
+Landmarks find_landmarks(const Creature& creature, const HalfMesh& half,
+                         const std::vector<int>& mirror) {
+    Landmarks landmarks;
+    std::vector<int> taken;
+    const auto take = [&](const Vector3& point, bool in_plane) {
+        const int vertex = nearest_vertex(half, point, in_plane);
+        if (std::find(taken.begin(), taken.end(), vertex) != taken.end()) return -1;
+        taken.push_back(vertex);
+        return vertex;
+    };
+    for (const Vector3& point : creature.pair_landmarks) {
+        const int left = take(point, false);
+        if (left >= 0) {
+            landmarks.pairs.push_back({left, mirror[static_cast<std::size_t>(left)]});
+        }
+    }
+    for (const Vector3& point : creature.stationary_landmarks) {
+        const int vertex = take(point, true);
+        if (vertex >= 0) landmarks.stationary.push_back(vertex);
+    }
+    return landmarks;
+}
+
 class SkinnedCreature final : public SyntheticCreature {
 public:
     SkinnedCreature(std::string name, Creature creature, const SynthOptions& options,
@@ -166,13 +191,7 @@ public:
                 weights_[v] = body.bone_weights(half.vertices[v]);
             }
         });
-        for (const Vector3& point : creature_.pair_landmarks) {
-            const int left = nearest_vertex(half, point, false);
-            landmarks_.pairs.push_back({left, mesh_.mirror[static_cast<std::size_t>(left)]});
-        }
-        for (const Vector3& point : creature_.stationary_landmarks) {
-            landmarks_.stationary.push_back(nearest_vertex(half, point, true));
-        }
+        landmarks_ = find_landmarks(creature_, half, mesh_.mirror);
     }
 
     const Triangles& triangles() const override { return mesh_.F; }
@@ -182,7 +201,7 @@ public:
     Positions read_rest_shape() const override { return mesh_.V; }
     std::string name() const override { return name_; }
     const std::vector<int>& mirror() const override { return mesh_.mirror; }
-    const SyntheticLandmarks& landmarks() const override { return landmarks_; }
+    const Landmarks& landmarks() const override { return landmarks_; }
 
     Positions read_frame(int frame) const override {
         require(frame >= 0 && frame < frame_count_, InputFault::usage,
@@ -220,7 +239,7 @@ private:
     WholeMesh mesh_;
     std::size_t half_count_ = 0;
     std::vector<BoneWeights> weights_;
-    SyntheticLandmarks landmarks_;
+    Landmarks landmarks_;
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -8,19 +7,13 @@
 
 #include "kinequad/core/context.h"
 #include "kinequad/io/frame_source.h"
+#include "kinequad/io/landmarks.h"
 
 namespace kinequad {
 
 struct SynthOptions {
     int triangle_count = 20000;  ///< met within ten per cent; 1,000 to 4,000,000
     int frame_count = 48;        ///< of one cycle of the motion, at least 1
-};
-
-/// Vertices that a user would pick as landmarks: pairs of mirror images, and vertices of the plane
-/// of symmetry.
-struct SyntheticLandmarks {
-    std::vector<std::array<int, 2>> pairs;
-    std::vector<int> stationary;
 };
 
 /// An example creature in motion whose symmetry is known: a closed surface of genus 0 in metres, y
@@ -31,7 +24,8 @@ class SyntheticCreature : public FrameSource {
 public:
     /// Mirror vertex of every vertex (n), an involution that maps triangles to reversed triangles.
     virtual const std::vector<int>& mirror() const = 0;
-    virtual const SyntheticLandmarks& landmarks() const = 0;
+    /// Vertices that a user would pick: tips of limbs, joints, nose, crown. No vertex occurs twice.
+    virtual const Landmarks& landmarks() const = 0;
 };
 
 /// Names that `synthesize_creature` knows.

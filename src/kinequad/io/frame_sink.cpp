@@ -29,6 +29,7 @@ std::string frame_name(const std::string& stem, int frame, int frame_count,
 void require_no_older_frames(const std::filesystem::path& directory, const std::string& stem,
                              int frame_count, const std::string& extension) {
     std::vector<std::string> ours;
+    ours.reserve(static_cast<std::size_t>(frame_count));
     for (int f = 0; f < frame_count; ++f)
         ours.push_back(frame_name(stem, f, frame_count, extension));
     std::sort(ours.begin(), ours.end());

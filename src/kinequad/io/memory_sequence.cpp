@@ -10,7 +10,10 @@ namespace kinequad {
 
 MemorySequence::MemorySequence(Triangles F, std::vector<Positions> frames,
                                std::optional<Positions> rest, std::string name)
-    : F_(std::move(F)), frames_(std::move(frames)), rest_(std::move(rest)), name_(std::move(name)) {
+    : triangles_(std::move(F)),
+      frames_(std::move(frames)),
+      rest_(std::move(rest)),
+      name_(std::move(name)) {
     const auto fail = [&](const std::string& what) {
         throw InputError(InputFault::mesh, fmt::format("{}: {}", name_, what));
     };
@@ -27,9 +30,9 @@ MemorySequence::MemorySequence(Triangles F, std::vector<Positions> frames,
         if (!frames_[f].allFinite())
             fail(fmt::format("frame {} has a position that is not finite", f));
     }
-    if (F_.rows() == 0) fail("has no triangles");
-    for (Eigen::Index t = 0; t < F_.rows(); ++t) {
-        if (F_.row(t).minCoeff() >= 0 && F_.row(t).maxCoeff() < n) continue;
+    if (triangles_.rows() == 0) fail("has no triangles");
+    for (Eigen::Index t = 0; t < triangles_.rows(); ++t) {
+        if (triangles_.row(t).minCoeff() >= 0 && triangles_.row(t).maxCoeff() < n) continue;
         fail(fmt::format("triangle {} names a vertex that does not exist", t));
     }
 }

@@ -17,7 +17,7 @@ public:
     MemorySequence(Triangles F, std::vector<Positions> frames,
                    std::optional<Positions> rest = std::nullopt, std::string name = "sequence");
 
-    const Triangles& triangles() const override { return F_; }
+    const Triangles& triangles() const override { return triangles_; }
     int vertex_count() const override { return static_cast<int>(frames_.front().rows()); }
     int frame_count() const override { return static_cast<int>(frames_.size()); }
     Positions read_frame(int frame) const override {
@@ -28,7 +28,7 @@ public:
     std::string name() const override { return name_; }
 
 private:
-    Triangles F_;
+    Triangles triangles_;
     std::vector<Positions> frames_;
     std::optional<Positions> rest_;
     std::string name_;

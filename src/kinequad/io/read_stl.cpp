@@ -40,7 +40,7 @@ std::vector<Vector3> read_binary_corners(std::string_view bytes, const std::stri
         for (int k = 0; k < 3; ++k, at += 12) {
             Vector3 p;
             for (int axis = 0; axis < 3; ++axis) {
-                p[axis] = load_number<float>(at + 4 * axis, std::endian::little);
+                p[axis] = load_number<float>(at + std::ptrdiff_t{4} * axis, std::endian::little);
             }
             if (!p.allFinite()) {
                 throw InputError(InputFault::mesh,

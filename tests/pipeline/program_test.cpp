@@ -1,0 +1,219 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "run_program.h"
+
+namespace kinequad {
+namespace {
+
+using test::content_of;
+using test::Outcome;
+using test::run_program;
+using test::ScratchFolder;
+using test::write_content;
+
+/// Expects one line of error that holds `part`, nothing on stdout, and no folder `out`.
+void expect_refused(const ScratchFolder& scratch, const std::string& arguments, int code,
+                    const std::string& part) {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = run_program(scratch, arguments);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err.rfind("kinequad: error: ", 0), 0U) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
+/// Makes the sequence `biped` in the scratch folder: a small creature in a few frames.
+void make_biped(const ScratchFolder& scratch) {
+    const Outcome outcome =
+        run_program(scratch, "synth biped -o biped --triangles 3000 --frames 4 -q");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+}
+
+std::vector<std::string> names_in(const std::filesystem::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+TEST(Program, ExplainsItself) {
+    const ScratchFolder scratch;
+    for (const char* arguments : {"--help", "run --help", "measure --help", "synth --help",
+                                  "render --help", "convert --help"}) {
+        const Outcome outcome = run_program(scratch, arguments);
+        EXPECT_EQ(outcome.code, 0) << arguments;
+        EXPECT_NE(outcome.out.find("--help"), std::string::npos) << arguments;
+        EXPECT_EQ(outcome.err, "") << arguments;
+    }
+    EXPECT_EQ(run_program(scratch, "--version").out.rfind("kinequad ", 0), 0U);
+}
+
+TEST(Program, AnswersWrongUsageWithCode2) {
+    const ScratchFolder scratch;
+    write_content(scratch / "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    expect_refused(scratch, "", 2, "subcommand");
+    expect_refused(scratch, "fly", 2, "--help");
+    expect_refused(scratch, "run -o out", 2, "INPUT");
+    expect_refused(scratch, "run one.obj", 2, "--output");
+    expect_refused(scratch, "run one.obj -o out --vertices many", 2, "--vertices");
+    expect_refused(scratch, "run one.obj -o out --symmetry field -q", 2, "not in this version");
+    expect_refused(scratch, "run one.obj -o out --alpha 1.5 -q", 2, "--alpha");
+    expect_refused(scratch, "run one.obj -o out --reference 1 -q", 2, "--reference 1");
+    expect_refused(scratch, "run one.obj -o out --reference rest -q", 2, "no rest shape");
+    expect_refused(scratch, "synth unicorn -o out", 2, "unicorn");
+}
+
+TEST(Program, AnswersFilesItCannotReadWithCode3) {
+    const ScratchFolder scratch;
+    expect_refused(scratch, "run absent.obj -o out -q", 3, "absent.obj");
+    write_content(scratch / "bad.obj", "v 0 0 zero\n");
+    expect_refused(scratch, "run bad.obj -o out -q", 3, "bad.obj");
+}
+
+TEST(Program, AnswersFoldersItCannotMakeWithCode3) {
+    const ScratchFolder scratch;
+    write_content(scratch / "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write_content(scratch / "file", "");
+    expect_refused(scratch, "run one.obj -o file/below -q", 3, "file/below");
+}
+
+TEST(Program, AnswersInvalidMeshesWithCode4) {
+    const ScratchFolder scratch;
+    write_content(scratch / "tie.obj",
+                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 1 2 3\nf 1 4 5\n");
+    expect_refused(scratch, "run tie.obj -o out -q", 4, "tie.obj: vertex 0 is non-manifold");
+    write_content(scratch / "flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    expect_refused(scratch, "run flat.obj -o out -q", 4, "has no area");
+}
+
+TEST(Program, LeavesTheFolderAsItWasWhereItFails) {
+    const ScratchFolder scratch;
+    write_content(scratch / "tie.obj",
+                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 1 2 3\nf 1 4 5\n");
+    std::filesystem::create_directory(scratch / "kept");
+    write_content(scratch / "kept" / "quads.obj", "mine");
+    EXPECT_EQ(run_program(scratch, "run tie.obj -o kept -q").code, 4);
+    EXPECT_EQ(names_in(scratch / "kept"), std::vector<std::string>{"quads.obj"});
+    EXPECT_EQ(content_of(scratch / "kept" / "quads.obj"), "mine");
+}
+
+TEST(Program, AnInterruptedRunEndsWithCode130AndLeavesNothing) {
+    const ScratchFolder scratch;
+    // `timeout` sends SIGINT once the run is on its way; a run of this size takes far longer.
+    write_content(scratch / "interrupt.sh",
+                  "timeout --preserve-status --signal=INT 0.5 \"$@\"\nexit $?\n");
+    const std::string program = KINEQUAD_PROGRAM;
+    const Outcome outcome =
+        run_program(scratch, "--version; sh interrupt.sh " + program +
+                                 " synth biped --triangles 4000000 --frames 1000 -o out -q");
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
+TEST(Program, ConvertsThereAndBackWithoutLoss) {
+    const ScratchFolder scratch;
+    make_biped(scratch);
+    EXPECT_EQ(run_program(scratch, "convert biped frames -q").code, 0);
+    EXPECT_EQ(run_program(scratch, "convert frames back.pc2 -q").code, 0);
+    EXPECT_EQ(content_of(scratch / "back.pc2"), content_of(scratch / "biped" / "biped.pc2"));
+    EXPECT_EQ(run_program(scratch, "convert biped other.mdd -q").code, 0);
+    EXPECT_EQ(run_program(scratch, "convert other.obj again.pc2 -q").code, 0);
+    EXPECT_EQ(content_of(scratch / "again.pc2"), content_of(scratch / "back.pc2"));
+    EXPECT_EQ(run_program(scratch, "convert biped one.obj --frame 2 -q").code, 0);
+    EXPECT_EQ(content_of(scratch / "one.obj"), content_of(scratch / "frames" / "frames_0002.obj"));
+    expect_refused(scratch, "convert biped many.obj -q", 2, "--frame");
+}
+
+TEST(Program, WritesTheTrueMirrorOfACreature) {
+    const ScratchFolder scratch;
+    make_biped(scratch);
+    const auto mirror =
+        nlohmann::json::parse(content_of(scratch / "biped" / "mirror.json"))["mirror"]
+            .get<std::vector<std::size_t>>();
+    for (std::size_t v = 0; v < mirror.size(); ++v) EXPECT_EQ(mirror.at(mirror[v]), v);
+}
+
+TEST(Program, RendersAPicture) {
+    const ScratchFolder scratch;
+    make_biped(scratch);
+    EXPECT_EQ(run_program(scratch, "render biped -o picture.png --frame 0,3 --size 64,32 -q").code,
+              0);
+    EXPECT_EQ(content_of(scratch / "picture.png").substr(1, 3), "PNG");
+    expect_refused(scratch, "render biped -o other.png --frame 4 -q", 2, "--frame 4");
+}
+
+TEST(Program, RunLeavesTheSequenceItsRecordAndTheBinding) {
+    const ScratchFolder scratch;
+    make_biped(scratch);
+    const Outcome outcome = run_program(scratch, "run biped -o out --vertices 800 --json");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(names_in(scratch / "out"),
+              (std::vector<std::string>{"binding.json", "quads.obj", "quads.pc2", "run.json"}));
+    EXPECT_EQ(outcome.out, content_of(scratch / "out" / "run.json"));
+    const auto record = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(record["input"]["frames"], 4);
+    EXPECT_EQ(record["map"]["flipped_triangles"], 0);
+    EXPECT_NEAR(record["quads"]["vertices"].get<int>(), 800, 40);
+    // A closed surface of genus 0 in quads has two vertices more than quads.
+    EXPECT_EQ(record["quads"]["vertices"].get<int>(), record["quads"]["quads"].get<int>() + 2);
+    EXPECT_EQ(record["field"]["index_sum_in_quarters"], 8);
+
+    // The metrics of the run are those that measuring its files gives, up to 32-bit coordinates.
+    const Outcome measured = run_program(scratch, "measure out --against biped --json -q");
+    ASSERT_EQ(measured.code, 0) << measured.err;
+    const auto again = nlohmann::json::parse(measured.out);
+    for (const char* name : {"angle_deviation_mean", "hausdorff_percent"}) {
+        EXPECT_NEAR(again["mean"][name].get<double>(),
+                    record["metrics"]["mean"][name].get<double>(), 0.01)
+            << name;
+    }
+}
+
+TEST(Program, RunWritesOtherFormatsOverEarlierOnes) {
+    const ScratchFolder scratch;
+    make_biped(scratch);
+    const std::string run = "run biped -o out --vertices 500 --no-metrics -q";
+    ASSERT_EQ(run_program(scratch, run).code, 0);
+    ASSERT_EQ(run_program(scratch, run + " --format obj").code, 0);
+    EXPECT_EQ(names_in(scratch / "out"),
+              (std::vector<std::string>{"binding.json", "quads", "run.json"}));
+    EXPECT_EQ(names_in(scratch / "out" / "quads").size(), 4U);
+}
+
+TEST(Program, SingleMeshGivesASingleMesh) {
+    const ScratchFolder scratch;
+    make_biped(scratch);
+    ASSERT_EQ(run_program(scratch, "convert biped one.obj --frame 0 -q").code, 0);
+    ASSERT_EQ(run_program(scratch, "run one.obj -o out --vertices 500 --no-metrics -q").code, 0);
+    EXPECT_EQ(names_in(scratch / "out"),
+              (std::vector<std::string>{"binding.json", "quads.obj", "run.json"}));
+}
+
+TEST(Program, ResultsDoNotDependOnTheNumberOfThreads) {
+    const ScratchFolder scratch;
+    make_biped(scratch);
+    for (const char* threads : {"1", "2", "8"}) {
+        const Outcome outcome =
+            run_program(scratch, std::string("run biped --vertices 800 --no-metrics -q -o out") +
+                                     threads + " --threads " + threads);
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        for (const char* name : {"quads.obj", "quads.pc2", "binding.json"}) {
+            EXPECT_TRUE(content_of(scratch / (std::string("out") + threads) / name) ==
+                        content_of(scratch / "out1" / name))
+                << name << " differs with " << threads << " threads";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace kinequad

@@ -15,7 +15,10 @@ struct RelaxOptions {
     /// True where the reference is the rest shape, which is no frame.
     bool reference_is_rest_shape = false;
     /// Passes over all vertices.
-    int rounds = 8;
+    int rounds = 6;
+    /// Vertices of the input farther than this from the quads, in edge lengths of the quads, get a quad vertex
+    /// of their own: finger tips, ears.
+    double distance_limit = 0.4;
 };
 
 /// Slides the vertices of a quad mesh over the surface so that quads come closer to squares in all

@@ -1,0 +1,75 @@
+#include "kinequad/relax/quad_cost.h"
+
+#include <algorithm>
+
+namespace kinequad {
+namespace {
+
+struct CornerShape {
+    double cosine = 0;
+    double jacobian = 0;
+};
+
+std::array<CornerShape, 4> corner_shapes(const QuadCorners& p) {
+    const Vector3 normal = area_normal(p).normalized();
+    std::array<Vector3, 4> edge;
+    std::array<double, 4> inverse_length{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        edge[k] = p[(k + 1) % 4] - p[k];
+        inverse_length[k] = 1 / std::max(edge[k].norm(), 1e-300);
+    }
+    std::array<CornerShape, 4> shapes;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Vector3& out = edge[k];
+        const Vector3& in = edge[(k + 3) % 4];
+        const double scale = inverse_length[k] * inverse_length[(k + 3) % 4];
+        shapes[k] = {out.dot(in) * scale, in.cross(out).dot(normal) * scale};
+    }
+    return shapes;
+}
+
+}  // namespace
+
+Vector3 area_normal(const QuadCorners& p) { return (p[2] - p[0]).cross(p[3] - p[1]); }
+
+double least_scaled_jacobian(const QuadCorners& p) {
+    double least = 1;
+    for (const CornerShape& corner : corner_shapes(p)) least = std::min(least, corner.jacobian);
+    return least;
+}
+
+double quad_cost(const QuadCorners& p, const FoldBarrier& barrier) {
+    double sum = 0;
+    for (const CornerShape& corner : corner_shapes(p)) {
+        const double missing = std::max(0.0, barrier.safe_jacobian - corner.jacobian);
+        sum += corner.cosine * corner.cosine + barrier.weight * missing * missing;
+    }
+    return sum;
+}
+
+Vector3 fitted_square_corner(const QuadCorners& p, const Vector3& normal, std::size_t corner) {
+    const Vector3 centre = (p[0] + p[1] + p[2] + p[3]) / 4;
+    Vector3 spoke = Vector3::Zero();
+    for (std::size_t k = 0; k < 4; ++k) {
+        // Every corner is turned back onto the place of `corner` by quarter turns about the normal.
+        const Vector3 away = p[k] - centre;
+        const Vector3 flat = away - away.dot(normal) * normal;
+        const Vector3 turned = normal.cross(flat);
+        switch ((k + 4 - corner) % 4) {
+            case 1:
+                spoke -= turned / 4;
+                break;
+            case 2:
+                spoke -= flat / 4;
+                break;
+            case 3:
+                spoke += turned / 4;
+                break;
+            default:
+                spoke += flat / 4;
+        }
+    }
+    return centre + spoke;
+}
+
+}  // namespace kinequad

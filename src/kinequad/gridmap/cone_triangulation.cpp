@@ -217,17 +217,21 @@ void ConeTriangulation::take_out_vertices(const MapVariables& variables, int ver
         if (!variables.is_node[at(v)] && outgoing[at(v)] >= 0) left.push_back(v);
     }
     // A vertex whose star has edges to itself has to wait for others to go.
+    int idle = 0;
     while (!left.empty()) {
         std::vector<int> waiting;
         for (const int v : left) {
             if (!take_out(v, outgoing)) waiting.push_back(v);
         }
-        if (waiting.size() == left.size()) {
+        idle = waiting.size() == left.size() ? idle + 1 : 0;
+        if (idle == 3) {
             throw GridMapError(
                 fmt::format("{} regular vertices cannot be taken out of the cone metric, vertex {} first",
                             waiting.size(), waiting.front()));
         }
         left = std::move(waiting);
+        // Rings around thin limbs are left sheared: unwind them.
+        make_delaunay();
         refresh();
     }
 }
@@ -335,6 +339,8 @@ bool ConeTriangulation::take_out(int v, std::vector<int>& outgoing) {
             double least = std::min(cross(ca, ad), cross(db, bc));
             // An edge from v to itself counts twice: flip it first.
             if (origin_[at(g)] == v && least > 1e-14) least += 1e6;
+            // The new edge must not end at v again.
+            if (origin_[at(Topology::previous(h))] == v || origin_[at(Topology::previous(g))] == v) continue;
             if (least > best_area) {
                 best_area = least;
                 best = h;

@@ -20,7 +20,7 @@ struct DeformationOptions {
     /// frames, so that slivers do not rule. 1 takes every stretch as it is.
     double stretch_quantile = 0.99;
     /// Reads this frame only, as if it were the whole sequence.
-    std::optional<int> only_frame;
+    std::optional<int> only_frame = std::nullopt;
 };
 
 /// Measures how the frames deform every triangle against `metric`, and where they bend it. Reads

@@ -161,8 +161,7 @@ CutGraph cut_to_discs(ChartedMesh& mesh, const std::vector<char>& nodes) {
         if (mesh.twin[h] < 0) {
             graph.is_cut[h] = 0;
         } else {
-            mesh.rotation[h] =
-                (mesh.rotation[h] + turns[at(mesh.twin[h] / 3)] - turns[h / 3]) & 3;
+            mesh.rotation[h] = (mesh.rotation[h] + turns[at(mesh.twin[h] / 3)] - turns[h / 3]) & 3;
         }
     }
 

@@ -10,14 +10,14 @@
 namespace kinequad {
 
 /// The working mesh of the grid map: a triangulation that may be refined, with a chart in every
-/// triangle whose axes are the arms of the cross and whose unit is the wanted edge length. A map that
-/// equals the chart in every triangle up to translation would have no distortion at all.
+/// triangle whose axes are the arms of the cross and whose unit is the wanted edge length. A map
+/// that equals the chart in every triangle up to translation would have no distortion at all.
 /// Half-edge `h = 3 * t + k` as in `Topology`.
 struct ChartedMesh {
     int vertex_count = 0;
-    std::vector<int> origin;           ///< 3m: vertex at a corner
-    std::vector<int> twin;             ///< 3m: half-edge across, -1 on the boundary
-    std::vector<int> rotation;         ///< 3m: quarter turns from this triangle's chart to the one across
+    std::vector<int> origin;    ///< 3m: vertex at a corner
+    std::vector<int> twin;      ///< 3m: half-edge across, -1 on the boundary
+    std::vector<int> rotation;  ///< 3m: quarter turns from this triangle's chart to the one across
     std::vector<Complex> target;       ///< 3m: corner in the chart of its triangle, in cells
     std::vector<int> parent;           ///< m: input triangle
     std::vector<Vector3> barycentric;  ///< 3m: corner in the parent's barycentric coordinates
@@ -25,8 +25,8 @@ struct ChartedMesh {
     std::vector<char> is_boundary;     ///< n
 
     int triangle_count() const { return static_cast<int>(parent.size()); }
-    /// Inserts a vertex at `fraction` of half-edge `half_edge` (0 at its origin) and returns it. The
-    /// triangles on both sides are cut in two; half-edge numbers of all other triangles stay.
+    /// Inserts a vertex at `fraction` of half-edge `half_edge` (0 at its origin) and returns it.
+    /// The triangles on both sides are cut in two; half-edge numbers of all other triangles stay.
     int split_edge(int half_edge, double fraction = 0.5);
     /// Half-edges that leave every vertex, one a vertex: the boundary one first where there is one.
     std::vector<int> first_half_edges() const;
@@ -38,8 +38,8 @@ struct ChartedMesh {
 ChartedMesh build_charts(const Topology& topology, const IntrinsicMetric& metric,
                          const CrossField& field, double edge_length);
 
-/// Splits every edge that joins two singular vertices, and every triangle with three, until there is
-/// none: the map could not pass a third singularity between two that an edge ties together.
+/// Splits every edge that joins two singular vertices, and every triangle with three, until there
+/// is none: the map could not pass a third singularity between two that an edge ties together.
 /// Returns the number of splits.
 int separate_singularities(ChartedMesh& mesh);
 
@@ -48,10 +48,10 @@ struct CutGraph {
     std::vector<char> is_cut;  ///< 3m: both half-edges of every edge of the cut
 };
 
-/// Turns the charts of `mesh` so that rotations are zero across a breadth-first dual spanning tree, and
-/// returns the edges that the tree does not cross, less the branches that end in regular vertices:
-/// a graph that cuts the surface into discs, one a component, through all singular vertices and all of
-/// `nodes` (n, nonzero where a vertex must stay on the graph).
+/// Turns the charts of `mesh` so that rotations are zero across a breadth-first dual spanning tree,
+/// and returns the edges that the tree does not cross, less the branches that end in regular
+/// vertices: a graph that cuts the surface into discs, one a component, through all singular
+/// vertices and all of `nodes` (n, nonzero where a vertex must stay on the graph).
 CutGraph cut_to_discs(ChartedMesh& mesh, const std::vector<char>& nodes);
 
 /// `z` turned counter-clockwise by `quarters` quarter turns, exact.

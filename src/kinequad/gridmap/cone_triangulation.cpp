@@ -91,7 +91,8 @@ Complex ConeTriangulation::rows_times(const Rows& rows, const Eigen::VectorXd& y
 void ConeTriangulation::snap(const Eigen::VectorXd& integers) {
     integers_ = integers;
     for (const int t : alive_) {
-        for (int h = 3 * t; h < 3 * t + 3; ++h) displacement_[at(h)] = rows_times(rows_[at(h)], integers);
+        for (int h = 3 * t; h < 3 * t + 3; ++h)
+            displacement_[at(h)] = rows_times(rows_[at(h)], integers);
     }
 }
 
@@ -145,7 +146,8 @@ void ConeTriangulation::flip(int h) {
                     turn(displacement_[at(old_slot)], turns),
                     turn_rows(rows_[at(old_slot)], turns)};
     };
-    std::array<Side, 4> sides = {side(hn, hp, 0), side(hp, gn, r), side(gn, gp, 0), side(gp, hn, -r)};
+    std::array<Side, 4> sides = {side(hn, hp, 0), side(hp, gn, r), side(gn, gp, 0),
+                                 side(gp, hn, -r)};
 
     const Complex cd = displacement_[at(hp)] + turn(displacement_[at(gn)], -r);
     Rows cd_rows = add_rows(rows_[at(hp)], turn_rows(rows_[at(gn)], -r));
@@ -195,9 +197,11 @@ void ConeTriangulation::make_delaunay() {
         const int h = queue[i];
         const int g = twin_[at(h)];
         if (g < 0 || is_dead_[at(h / 3)]) continue;
-        if (opposite_cotangent(h) + opposite_cotangent(g) > -1e-9 || !can_flip(h, no_area)) continue;
+        if (opposite_cotangent(h) + opposite_cotangent(g) > -1e-9 || !can_flip(h, no_area))
+            continue;
         flip(h);
-        for (const int e : {Topology::next(h), Topology::previous(h), Topology::next(g), Topology::previous(g)}) {
+        for (const int e :
+             {Topology::next(h), Topology::previous(h), Topology::next(g), Topology::previous(g)}) {
             queue.push_back(e);
         }
     }
@@ -225,9 +229,9 @@ void ConeTriangulation::take_out_vertices(const MapVariables& variables, int ver
         }
         idle = waiting.size() == left.size() ? idle + 1 : 0;
         if (idle == 3) {
-            throw GridMapError(
-                fmt::format("{} regular vertices cannot be taken out of the cone metric, vertex {} first",
-                            waiting.size(), waiting.front()));
+            throw GridMapError(fmt::format(
+                "{} regular vertices cannot be taken out of the cone metric, vertex {} first",
+                waiting.size(), waiting.front()));
         }
         left = std::move(waiting);
         // Rings around thin limbs are left sheared: unwind them.
@@ -268,7 +272,8 @@ bool ConeTriangulation::take_out(int v, std::vector<int>& outgoing) {
             // Merge the fan into the triangle of its first half-edge.
             const int keep = fan[0];
             const int t = keep / 3;
-            std::array<int, 3> outer{};  // edges of the merged triangle, as old slots or -1 for the new one
+            std::array<int, 3>
+                outer{};  // edges of the merged triangle, as old slots or -1 for the new one
             std::array<int, 3> to_keep{};
             int turns = 0;
             for (std::size_t i = 0; i < fan.size(); ++i) {
@@ -285,7 +290,8 @@ bool ConeTriangulation::take_out(int v, std::vector<int>& outgoing) {
             for (std::size_t i = 0; i < fan.size(); ++i) {
                 const int s = outer[i];
                 merged.push_back({origin_[at(s)], twin_[at(s)], rotation_[at(s)] - to_keep[i],
-                                  turn(displacement_[at(s)], to_keep[i]), turn_rows(rows_[at(s)], to_keep[i])});
+                                  turn(displacement_[at(s)], to_keep[i]),
+                                  turn_rows(rows_[at(s)], to_keep[i])});
             }
             if (open) {
                 // The two boundary edges at v lie on one line and become one.
@@ -340,7 +346,8 @@ bool ConeTriangulation::take_out(int v, std::vector<int>& outgoing) {
             // An edge from v to itself counts twice: flip it first.
             if (origin_[at(g)] == v && least > 1e-14) least += 1e6;
             // The new edge must not end at v again.
-            if (origin_[at(Topology::previous(h))] == v || origin_[at(Topology::previous(g))] == v) continue;
+            if (origin_[at(Topology::previous(h))] == v || origin_[at(Topology::previous(g))] == v)
+                continue;
             if (least > best_area) {
                 best_area = least;
                 best = h;
@@ -349,8 +356,8 @@ bool ConeTriangulation::take_out(int v, std::vector<int>& outgoing) {
         if (best < 0) return false;
         const int g = twin_[at(best)];
         flip(best);
-        for (const int e : {best, Topology::next(best), Topology::previous(best), g, Topology::next(g),
-                            Topology::previous(g)}) {
+        for (const int e : {best, Topology::next(best), Topology::previous(best), g,
+                            Topology::next(g), Topology::previous(g)}) {
             touch(e);
         }
     }
@@ -378,7 +385,9 @@ Eigen::VectorXd ConeTriangulation::determinant_gradient(int i) const {
     const int h = 3 * alive_[at(i)];
     const Complex a = displacement_[at(h)];
     const Complex b = displacement_[at(h + 1)];
-    const auto part = [&](int slot, int k) { return rows_[at(slot)].row(k).cast<double>().transpose(); };
+    const auto part = [&](int slot, int k) {
+        return rows_[at(slot)].row(k).cast<double>().transpose();
+    };
     return b.imag() * part(h, 0) + a.real() * part(h + 1, 1) - b.real() * part(h, 1) -
            a.imag() * part(h + 1, 0);
 }
@@ -387,13 +396,16 @@ std::vector<int> ConeTriangulation::short_edges(double length) const {
     std::vector<int> found;
     for (const int t : alive_) {
         for (int h = 3 * t; h < 3 * t + 3; ++h) {
-            if (twin_[at(h)] < h && std::norm(displacement_[at(h)]) < length * length) found.push_back(h);
+            if (twin_[at(h)] < h && std::norm(displacement_[at(h)]) < length * length)
+                found.push_back(h);
         }
     }
     return found;
 }
 
-double ConeTriangulation::edge_length(int half_edge) const { return std::abs(displacement_[at(half_edge)]); }
+double ConeTriangulation::edge_length(int half_edge) const {
+    return std::abs(displacement_[at(half_edge)]);
+}
 
 Eigen::VectorXd ConeTriangulation::edge_length_gradient(int half_edge) const {
     const Complex d = displacement_[at(half_edge)] / edge_length(half_edge);
@@ -428,7 +440,8 @@ bool ConeTriangulation::move(const Eigen::VectorXd& step) {
     const auto time_to_collapse = [&](int t) {
         const auto h = at(3 * t);
         const double c0 = cross(displacement_[h], displacement_[h + 1]);
-        const double c1 = cross(velocity[h], displacement_[h + 1]) + cross(displacement_[h], velocity[h + 1]);
+        const double c1 =
+            cross(velocity[h], displacement_[h + 1]) + cross(displacement_[h], velocity[h + 1]);
         const double c2 = cross(velocity[h], velocity[h + 1]);
         if (c0 <= no_area) {
             if (c1 < 0 || (c1 <= 1e-12 && c2 < 0)) return 0.0;
@@ -463,7 +476,8 @@ bool ConeTriangulation::move(const Eigen::VectorXd& step) {
         if (soonest > left * (1 + 1e-12)) break;
         const double advance = std::min(soonest, left);
         for (const int t : alive_) {
-            for (int h = 3 * t; h < 3 * t + 3; ++h) displacement_[at(h)] += advance * velocity[at(h)];
+            for (int h = 3 * t; h < 3 * t + 3; ++h)
+                displacement_[at(h)] += advance * velocity[at(h)];
         }
         left -= advance;
         int longest = 3 * first;

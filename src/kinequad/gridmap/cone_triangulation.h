@@ -7,21 +7,21 @@
 
 namespace kinequad {
 
-/// An intrinsic triangulation of the flat cone metric of a map, by its nodes alone. Every half-edge knows
-/// its displacement in the chart of its triangle, and which integer form in the unknowns y that is. It
-/// stays a triangulation (all triangles of positive area) while the nodes are moved, by flipping an edge
-/// where a triangle collapses: as long as that goes on, a map of the surface without a flipped triangle
-/// exists for the new positions. docs/gridmap.md, "Whole numbers"
+/// An intrinsic triangulation of the flat cone metric of a map, by its nodes alone. Every half-edge
+/// knows its displacement in the chart of its triangle, and which integer form in the unknowns y
+/// that is. It stays a triangulation (all triangles of positive area) while the nodes are moved, by
+/// flipping an edge where a triangle collapses: as long as that goes on, a map of the surface
+/// without a flipped triangle exists for the new positions. docs/gridmap.md, "Whole numbers"
 class ConeTriangulation {
 public:
-    /// Copies the injective map `corners` (3m) of `mesh` and takes out every vertex that is no node.
-    /// `integers` are the values of y in that map.
-    /// Throws `GridMapError` where a vertex cannot be taken out.
+    /// Copies the injective map `corners` (3m) of `mesh` and takes out every vertex that is no
+    /// node. `integers` are the values of y in that map. Throws `GridMapError` where a vertex
+    /// cannot be taken out.
     ConeTriangulation(const ChartedMesh& mesh, const MapVariables& variables,
                       const std::vector<Complex>& corners, const Eigen::VectorXd& integers);
 
-    /// Moves y by `step` along a straight line. Returns false, with nothing changed, where that would
-    /// bring two nodes together or push one through the boundary.
+    /// Moves y by `step` along a straight line. Returns false, with nothing changed, where that
+    /// would bring two nodes together or push one through the boundary.
     bool move(const Eigen::VectorXd& step);
     /// Multiplies all positions by `factor`.
     void scale(double factor);

@@ -58,13 +58,16 @@ GridMapReport verify_grid_map(const GridMap& map) {
     GridMapReport report;
     const Topology& topology = map.topology;
     const auto triangles = static_cast<std::size_t>(topology.triangle_count);
-    for (std::size_t t = 0; t < triangles; ++t) report.flipped_triangles += is_positive(map, t) ? 0 : 1;
+    for (std::size_t t = 0; t < triangles; ++t)
+        report.flipped_triangles += is_positive(map, t) ? 0 : 1;
 
     for (std::size_t h = 0; h < 3 * triangles; ++h) {
         const Coordinate from = map.corner[h];
-        const Coordinate to = map.corner[static_cast<std::size_t>(Topology::next(static_cast<int>(h)))];
+        const Coordinate to =
+            map.corner[static_cast<std::size_t>(Topology::next(static_cast<int>(h)))];
         if (topology.twin[h] < 0) {
-            const bool on_line = (from.u == to.u && is_whole(from.u)) || (from.v == to.v && is_whole(from.v));
+            const bool on_line =
+                (from.u == to.u && is_whole(from.u)) || (from.v == to.v && is_whole(from.v));
             report.unaligned_boundary_edges += on_line ? 0 : 1;
             continue;
         }
@@ -72,7 +75,8 @@ GridMapReport verify_grid_map(const GridMap& map) {
         const GridMap::Transition& across = map.transition[h];
         report.fractional_translations += is_whole(across.translation) ? 0 : 1;
         const bool matches =
-            across(from) == map.corner[static_cast<std::size_t>(Topology::next(static_cast<int>(other)))] &&
+            across(from) ==
+                map.corner[static_cast<std::size_t>(Topology::next(static_cast<int>(other)))] &&
             across(to) == map.corner[other];
         report.broken_transitions += matches ? 0 : 1;
     }

@@ -7,20 +7,21 @@
 
 namespace kinequad {
 
-/// A triangulation that refines an input mesh: every one of its triangles lies in one input triangle.
+/// A triangulation that refines an input mesh: every one of its triangles lies in one input
+/// triangle.
 struct RefinedMesh {
     Triangles F;              ///< m' x 3
     int vertex_count = 0;     ///< n'; the first n are the input's vertices
     std::vector<int> parent;  ///< m': input triangle that holds a triangle
-    Positions barycentric;    ///< 3m' x 3: row 3t+k, corner k of triangle t in its parent's barycentric
-                              ///< coordinates (exact at input vertices)
+    Positions barycentric;    ///< 3m' x 3: row 3t+k, corner k of triangle t in its parent's
+                            ///< barycentric coordinates (exact at input vertices)
 };
 
-/// An integer-grid map: (u, v) at every corner of a refined mesh, so that each triangle is mapped with
-/// positive area and crossing an edge is a quarter-turn rotation plus an integer translation.
+/// An integer-grid map: (u, v) at every corner of a refined mesh, so that each triangle is mapped
+/// with positive area and crossing an edge is a quarter-turn rotation plus an integer translation.
 ///
-/// Coordinates are fixed-point numbers in units of 2^-`fraction_bits` of the grid, so that transition
-/// functions hold to the last bit and orientation tests are exact in 128-bit integers.
+/// Coordinates are fixed-point numbers in units of 2^-`fraction_bits` of the grid, so that
+/// transition functions hold to the last bit and orientation tests are exact in 128-bit integers.
 struct GridMap {
     static constexpr int fraction_bits = 30;
     static constexpr std::int64_t one = std::int64_t{1} << fraction_bits;
@@ -40,11 +41,11 @@ struct GridMap {
     };
 
     RefinedMesh mesh;
-    Topology topology;                    ///< of `mesh`
-    std::vector<Coordinate> corner;       ///< 3m': coordinates of corner k of triangle t at 3t+k
-    std::vector<Transition> transition;   ///< 3m': of half-edge h, from its triangle's chart to the chart
-                                          ///< across it; identity on the boundary
-    Eigen::VectorXi index;                ///< n': singularity index in quarters
+    Topology topology;                   ///< of `mesh`
+    std::vector<Coordinate> corner;      ///< 3m': coordinates of corner k of triangle t at 3t+k
+    std::vector<Transition> transition;  ///< 3m': of half-edge h, from its triangle's chart to the
+                                         ///< chart across it; identity on the boundary
+    Eigen::VectorXi index;  ///< n': singularity index in quarters
 };
 
 /// The coordinate turned counter-clockwise by `quarters` quarter turns.
@@ -52,13 +53,15 @@ GridMap::Coordinate rotate(GridMap::Coordinate z, int quarters);
 
 /// What `verify_grid_map` counts; a valid map has zeros everywhere.
 struct GridMapReport {
-    int flipped_triangles = 0;        ///< triangles whose image has no positive area
-    int broken_transitions = 0;       ///< edges whose two sides do not match under the transition
-    int fractional_translations = 0;  ///< half-edges whose translation is not a whole number of cells
-    int fractional_singularities = 0; ///< singular vertices and boundary corners off the integer grid
-    int wrong_cone_angles = 0;        ///< vertices whose angle sum in the map is not (4 - index) quarters
-                                      ///< (on the boundary (2 - index) quarters)
-    int unaligned_boundary_edges = 0; ///< boundary edges not on an integer line
+    int flipped_triangles = 0;   ///< triangles whose image has no positive area
+    int broken_transitions = 0;  ///< edges whose two sides do not match under the transition
+    int fractional_translations =
+        0;  ///< half-edges whose translation is not a whole number of cells
+    int fractional_singularities =
+        0;                      ///< singular vertices and boundary corners off the integer grid
+    int wrong_cone_angles = 0;  ///< vertices whose angle sum in the map is not (4 - index) quarters
+                                ///< (on the boundary (2 - index) quarters)
+    int unaligned_boundary_edges = 0;  ///< boundary edges not on an integer line
     bool valid() const;
 };
 

@@ -8,7 +8,8 @@
 namespace kinequad {
 
 template <class Number>
-LinearForm<Number> add_scaled(const LinearForm<Number>& a, Number factor, const LinearForm<Number>& b) {
+LinearForm<Number> add_scaled(const LinearForm<Number>& a, Number factor,
+                              const LinearForm<Number>& b) {
     LinearForm<Number> sum;
     sum.reserve(a.size() + b.size());
     std::size_t i = 0;
@@ -31,7 +32,8 @@ LinearForm<Number> add_scaled(const LinearForm<Number>& a, Number factor, const 
 }
 
 template LinearForm<long> add_scaled(const LinearForm<long>&, long, const LinearForm<long>&);
-template LinearForm<double> add_scaled(const LinearForm<double>&, double, const LinearForm<double>&);
+template LinearForm<double> add_scaled(const LinearForm<double>&, double,
+                                       const LinearForm<double>&);
 
 namespace {
 
@@ -49,7 +51,9 @@ public:
         return static_cast<int>(definition_.size()) - 1;
     }
     int count() const { return static_cast<int>(definition_.size()); }
-    bool is_defined(int variable) const { return is_defined_[static_cast<std::size_t>(variable)] != 0; }
+    bool is_defined(int variable) const {
+        return is_defined_[static_cast<std::size_t>(variable)] != 0;
+    }
 
     void define(int variable, LinearForm<Number> form) {
         is_defined_[static_cast<std::size_t>(variable)] = 1;
@@ -83,9 +87,8 @@ private:
                 if (!is_defined(term.first)) continue;
                 stale = true;
                 const auto& inner = definition_[static_cast<std::size_t>(term.first)];
-                const bool inner_stale = std::any_of(inner.begin(), inner.end(), [&](const auto& t) {
-                    return is_defined(t.first);
-                });
+                const bool inner_stale = std::any_of(
+                    inner.begin(), inner.end(), [&](const auto& t) { return is_defined(t.first); });
                 if (inner_stale) {
                     pending = term.first;
                     break;
@@ -102,7 +105,8 @@ private:
                 }
                 for (const auto& [inner, coefficient] : form) {
                     if (is_defined(inner)) {
-                        fresh = add_scaled(fresh, coefficient, definition_[static_cast<std::size_t>(inner)]);
+                        fresh = add_scaled(fresh, coefficient,
+                                           definition_[static_cast<std::size_t>(inner)]);
                     }
                 }
                 form = std::move(fresh);

@@ -11,19 +11,20 @@ using LinearForm = std::vector<std::pair<int, Number>>;
 
 /// `a + factor * b`.
 template <class Number>
-LinearForm<Number> add_scaled(const LinearForm<Number>& a, Number factor, const LinearForm<Number>& b);
+LinearForm<Number> add_scaled(const LinearForm<Number>& a, Number factor,
+                              const LinearForm<Number>& b);
 
 /// All variables of a homogeneous linear system in terms of those left free.
 template <class Number>
 struct Elimination {
     int free_count = 0;
-    std::vector<int> free_variable;            ///< free_count: original variable of a free one; -1 where
-                                               ///< it is a new integer variable
+    std::vector<int> free_variable;  ///< free_count: original variable of a free one; -1 where
+                                     ///< it is a new integer variable
     std::vector<LinearForm<Number>> solution;  ///< a form in the free variables for every variable
 };
 
-/// Solves `rows` (each a form that vanishes) over the reals. In every row the variable with the lowest
-/// `priority` is expressed by the others; rows are used in their order.
+/// Solves `rows` (each a form that vanishes) over the reals. In every row the variable with the
+/// lowest `priority` is expressed by the others; rows are used in their order.
 Elimination<double> eliminate_reals(int variable_count, const std::vector<LinearForm<double>>& rows,
                                     const std::vector<int>& priority);
 

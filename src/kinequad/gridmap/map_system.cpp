@@ -31,7 +31,8 @@ TargetShape shape_of(std::array<Complex, 3> q) {
     TargetShape shape;
     shape.area = std::max(twice_area(), 1e-300) / 2;
     for (std::size_t k = 0; k < 3; ++k) {
-        const Complex gradient = Complex(0, 1) * (q[(k + 2) % 3] - q[(k + 1) % 3]) / (2 * shape.area);
+        const Complex gradient =
+            Complex(0, 1) * (q[(k + 2) % 3] - q[(k + 1) % 3]) / (2 * shape.area);
         shape.gradient[k] = std::conj(gradient) / 2.0;
     }
     return shape;
@@ -64,9 +65,10 @@ TriangleSystem::TriangleSystem(const MapVariables& variables) : variables_(varia
     const auto for_each_term = [&](int t, const auto& visit) {
         for (int i = 0; i < 6; ++i) {
             for (int j = 0; j < 6; ++j) {
-                for (int a = variables.row_start[at(6 * t + i)]; a < variables.row_start[at(6 * t + i + 1)]; ++a) {
-                    for (int b = variables.row_start[at(6 * t + j)]; b < variables.row_start[at(6 * t + j + 1)];
-                         ++b) {
+                for (int a = variables.row_start[at(6 * t + i)];
+                     a < variables.row_start[at(6 * t + i + 1)]; ++a) {
+                    for (int b = variables.row_start[at(6 * t + j)];
+                         b < variables.row_start[at(6 * t + j + 1)]; ++b) {
                         const int row = variables.column[at(a)];
                         const int column = variables.column[at(b)];
                         if (row < column) continue;
@@ -80,18 +82,21 @@ TriangleSystem::TriangleSystem(const MapVariables& variables) : variables_(varia
     std::vector<Eigen::Triplet<double>> pattern;
     for (int c = 0; c < variables.columns(); ++c) pattern.emplace_back(c, c, 0.0);
     for (int t = 0; t < triangles; ++t) {
-        for_each_term(t, [&](int row, int column, int, double) { pattern.emplace_back(row, column, 0.0); });
+        for_each_term(
+            t, [&](int row, int column, int, double) { pattern.emplace_back(row, column, 0.0); });
     }
     const auto for_each_whole_term = [&](const auto& visit) {
         for (int w = 0; w < variables.position_count; ++w) {
             for (const auto& [a, ca] : variables.whole[at(w)]) {
                 for (const auto& [b, cb] : variables.whole[at(w)]) {
-                    if (a >= b) visit(variables.vertex_columns + a, variables.vertex_columns + b, ca * cb);
+                    if (a >= b)
+                        visit(variables.vertex_columns + a, variables.vertex_columns + b, ca * cb);
                 }
             }
         }
     };
-    for_each_whole_term([&](int row, int column, double) { pattern.emplace_back(row, column, 0.0); });
+    for_each_whole_term(
+        [&](int row, int column, double) { pattern.emplace_back(row, column, 0.0); });
     matrix_.resize(variables.columns(), variables.columns());
     matrix_.setFromTriplets(pattern.begin(), pattern.end());
     matrix_.makeCompressed();
@@ -133,7 +138,8 @@ Eigen::VectorXd TriangleSystem::gather(const std::function<Vector6(int t)>& vect
     for (int t = 0; t + 1 < static_cast<int>(term_start_.size()); ++t) {
         const Vector6 local = vector_of(t);
         for (int i = 0; i < 6; ++i) {
-            for (int a = variables_.row_start[at(6 * t + i)]; a < variables_.row_start[at(6 * t + i + 1)]; ++a) {
+            for (int a = variables_.row_start[at(6 * t + i)];
+                 a < variables_.row_start[at(6 * t + i + 1)]; ++a) {
                 sum[variables_.column[at(a)]] += variables_.coefficient[at(a)] * local[i];
             }
         }

@@ -12,12 +12,12 @@ namespace kinequad {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// The shape a triangle should have in the parameter plane, as what is needed to differentiate a linear
-/// map of it: `f(q) = a q + b conj(q) + const`, `a = sum_k g_k z_k`, `b = sum_k conj(g_k) z_k` over the
-/// corner images `z_k`. The map keeps orientation where |a| > |b|.
+/// The shape a triangle should have in the parameter plane, as what is needed to differentiate a
+/// linear map of it: `f(q) = a q + b conj(q) + const`, `a = sum_k g_k z_k`, `b = sum_k conj(g_k)
+/// z_k` over the corner images `z_k`. The map keeps orientation where |a| > |b|.
 struct TargetShape {
-    double area = 0;                   ///< in cells; at least a tiny share of the longest side squared
-    std::array<Complex, 3> gradient;   ///< g_k
+    double area = 0;  ///< in cells; at least a tiny share of the longest side squared
+    std::array<Complex, 3> gradient;  ///< g_k
 
     Complex conformal_part(const Complex* z) const {
         return gradient[0] * z[0] + gradient[1] * z[1] + gradient[2] * z[2];
@@ -26,8 +26,8 @@ struct TargetShape {
         return std::conj(gradient[0]) * z[0] + std::conj(gradient[1]) * z[1] +
                std::conj(gradient[2]) * z[2];
     }
-    /// The 6-vector (u0, v0, u1, ...) whose product with the corner coordinates is Re(conj(d) a), or with
-    /// `anti` Re(conj(d) b).
+    /// The 6-vector (u0, v0, u1, ...) whose product with the corner coordinates is Re(conj(d) a),
+    /// or with `anti` Re(conj(d) b).
     Vector6 functional(Complex direction, bool anti) const;
 };
 
@@ -35,8 +35,8 @@ struct TargetShape {
 std::vector<TargetShape> target_shapes(const ChartedMesh& mesh, double scale);
 
 /// Sums up 6-vectors and 6 x 6 matrices of triangles, given over the corner coordinates
-/// (u0, v0, u1, v1, u2, v2), into a vector and a sparse matrix over the columns of `MapVariables`. The
-/// pattern is found once.
+/// (u0, v0, u1, v1, u2, v2), into a vector and a sparse matrix over the columns of `MapVariables`.
+/// The pattern is found once.
 class TriangleSystem {
 public:
     explicit TriangleSystem(const MapVariables& variables);

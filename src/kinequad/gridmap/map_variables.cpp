@@ -78,8 +78,8 @@ private:
             if (first_[at(v)] < 0) continue;
             for (int k = 0; k < 2; ++k) {
                 VertexCoordinate& coordinate = coordinate_[at(v)][at(k)];
-                coordinate.is_whole =
-                    nodes_[at(v)] != 0 || (mesh_.is_boundary[at(v)] != 0 && k == line_coordinate(v));
+                coordinate.is_whole = nodes_[at(v)] != 0 ||
+                                      (mesh_.is_boundary[at(v)] != 0 && k == line_coordinate(v));
                 coordinate.number = !coordinate.is_whole ? vertex_columns_++
                                     : nodes_[at(v)] != 0 ? new_whole(1, 2)
                                                          : new_whole(0, 0);
@@ -155,7 +155,8 @@ private:
             closing = add(closing, add(turned(z, frame.turns), turned(z, 2)));
         } else if (frame.turns != 0) {
             throw GridMapError(fmt::format(
-                "vertex {} is regular but the cross field turns by {} quarters around it", v, frame.turns));
+                "vertex {} is regular but the cross field turns by {} quarters around it", v,
+                frame.turns));
         }
         return {closing.u, closing.v};
     }
@@ -220,11 +221,13 @@ private:
         real_rows.reserve(rows_.size());
         for (const IntegerForm& row : rows_) real_rows.emplace_back(row.begin(), row.end());
         const Elimination<double> reals = eliminate_reals(whole_count_, real_rows, real_priority_);
-        const Elimination<long> integers = eliminate_integers(whole_count_, rows_, integer_priority_);
+        const Elimination<long> integers =
+            eliminate_integers(whole_count_, rows_, integer_priority_);
         if (reals.free_count != integers.free_count) {
-            throw GridMapError(fmt::format("the integer conditions have rank {} over the integers but {} "
-                                           "over the reals",
-                                           integers.free_count, reals.free_count));
+            throw GridMapError(
+                fmt::format("the integer conditions have rank {} over the integers but {} "
+                            "over the reals",
+                            integers.free_count, reals.free_count));
         }
 
         MapVariables result;
@@ -243,7 +246,8 @@ private:
         result.integer_part.resize(2 * mesh_.origin.size());
         for (int h = 0; h < static_cast<int>(mesh_.origin.size()); ++h) {
             const PlaneForm form = corner_form(h);
-            for (int k = 0; k < 2; ++k) add_corner_row(result, h, k, k == 0 ? form.u : form.v, reals, integers);
+            for (int k = 0; k < 2; ++k)
+                add_corner_row(result, h, k, k == 0 ? form.u : form.v, reals, integers);
         }
         return result;
     }

@@ -7,13 +7,13 @@
 
 namespace kinequad {
 
-/// The degrees of freedom of a map with the rotations of a `ChartedMesh`, and how the coordinates of
-/// every corner follow from them. docs/gridmap.md, "Variables".
+/// The degrees of freedom of a map with the rotations of a `ChartedMesh`, and how the coordinates
+/// of every corner follow from them. docs/gridmap.md, "Variables".
 ///
-/// Columns [0, vertex_columns) are coordinates of regular vertices; the `chain_columns` after them are
-/// translations along the chains of the cut, to which the singular vertices and the boundary lines are
-/// tied. The chain columns are real unknowns of the seamless map; the integer-grid maps among them are
-/// the integer combinations of the columns of `lattice`.
+/// Columns [0, vertex_columns) are coordinates of regular vertices; the `chain_columns` after them
+/// are translations along the chains of the cut, to which the singular vertices and the boundary
+/// lines are tied. The chain columns are real unknowns of the seamless map; the integer-grid maps
+/// among them are the integer combinations of the columns of `lattice`.
 struct MapVariables {
     int vertex_columns = 0;
     int chain_columns = 0;
@@ -22,17 +22,17 @@ struct MapVariables {
     std::vector<int> column;
     std::vector<double> coefficient;
 
-    /// Positions that have to become whole numbers: coordinates of nodes and of boundary lines, and the
-    /// translations of the cut, as forms in the chain columns (numbered from 0).
+    /// Positions that have to become whole numbers: coordinates of nodes and of boundary lines, and
+    /// the translations of the cut, as forms in the chain columns (numbered from 0).
     std::vector<LinearForm<double>> whole;
     int position_count = 0;  ///< the first of `whole` are coordinates, the others translations
     /// chain_columns x p: chain columns from the p integer unknowns.
     Eigen::MatrixXd lattice;
-    /// p x 2-forms: the part of every corner's coordinates that the integer unknowns give; empty off the
-    /// cut and the nodes. Two a corner.
+    /// p x 2-forms: the part of every corner's coordinates that the integer unknowns give; empty
+    /// off the cut and the nodes. Two a corner.
     std::vector<LinearForm<long>> integer_part;
-    /// n: nonzero at nodes, the vertices with integer coordinates: singular vertices, corners of the
-    /// boundary, and one vertex where a boundary loop or a component has none.
+    /// n: nonzero at nodes, the vertices with integer coordinates: singular vertices, corners of
+    /// the boundary, and one vertex where a boundary loop or a component has none.
     std::vector<char> is_node;
 
     int columns() const { return vertex_columns + chain_columns; }

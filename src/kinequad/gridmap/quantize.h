@@ -7,17 +7,18 @@
 
 namespace kinequad {
 
-/// Whole numbers for the integer unknowns of a map, for which a map without flipped triangles exists.
+/// Whole numbers for the integer unknowns of a map, for which a map without flipped triangles
+/// exists.
 struct Quantization {
     Eigen::VectorXd integers;  ///< p whole numbers
-    double scale = 1;          ///< cells of the real map are to be divided into `scale` cells a side
-    double quads = 0;          ///< area of the map in cells
+    double scale = 1;  ///< cells of the real map are to be divided into `scale` cells a side
+    double quads = 0;  ///< area of the map in cells
 };
 
 /// Rounds the unknowns of `cone` (in the injective seamless map) so that the energy
-/// `(y - s best)^T stiffness (y - s best)` stays low and no cone runs into another, at the scale `s` that
-/// gives about `quad_count` quads. docs/gridmap.md, "Whole numbers".
-/// Throws `GridMapError` where no scale works.
+/// `(y - s best)^T stiffness (y - s best)` stays low and no cone runs into another, at the scale
+/// `s` that gives about `quad_count` quads. docs/gridmap.md, "Whole numbers". Throws `GridMapError`
+/// where no scale works.
 Quantization quantize(const ConeTriangulation& cone, const Eigen::MatrixXd& stiffness,
                       const Eigen::VectorXd& best, double quad_count, const Context& context);
 

@@ -35,8 +35,8 @@ CornerForm add(const CornerForm& a, const CornerForm& b) {
     return {add_scaled(a.u, 1.0, b.u), add_scaled(a.v, 1.0, b.v)};
 }
 
-/// Rows of `MapVariables` opened up for changes. New vertex columns are numbered after the chain columns
-/// until `close` puts them where they belong.
+/// Rows of `MapVariables` opened up for changes. New vertex columns are numbered after the chain
+/// columns until `close` puts them where they belong.
 class Refinement {
 public:
     Refinement(ChartedMesh& mesh, MapVariables& variables, Eigen::VectorXd x)
@@ -55,7 +55,8 @@ public:
         const CornerForm b = corners_[at(n)];
         CornerForm middle;
         if (g >= 0) {
-            middle = {new_column((value(a.u) + value(b.u)) / 2), new_column((value(a.v) + value(b.v)) / 2)};
+            middle = {new_column((value(a.u) + value(b.u)) / 2),
+                      new_column((value(a.v) + value(b.v)) / 2)};
         } else {
             // On the boundary one coordinate stays that of the line.
             const Complex along(value(b.u) - value(a.u), value(b.v) - value(a.v));
@@ -67,7 +68,8 @@ public:
         }
         CornerForm across;
         if (g >= 0) {
-            const CornerForm shift = add(corners_[at(Topology::next(g))], turned(turned(a, turns), 2));
+            const CornerForm shift =
+                add(corners_[at(Topology::next(g))], turned(turned(a, turns), 2));
             across = add(turned(middle, turns), shift);
         }
         const int fresh = static_cast<int>(corners_.size());

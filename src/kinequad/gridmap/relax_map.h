@@ -7,14 +7,14 @@ namespace kinequad {
 
 /// How `bring_to_integers` went.
 struct Arrival {
-    Eigen::VectorXd x;               ///< values of all columns; no triangle is flipped
-    bool arrived = false;            ///< all chain columns have their goal
-    std::vector<int> tight;          ///< triangles that held the map back where it has not arrived
+    Eigen::VectorXd x;       ///< values of all columns; no triangle is flipped
+    bool arrived = false;    ///< all chain columns have their goal
+    std::vector<int> tight;  ///< triangles that held the map back where it has not arrived
 };
 
-/// Moves an orientation-keeping map `x` towards the values `goal` of its chain columns, keeping every
-/// triangle's area positive: Newton steps on `sum_t A_t energy(J_t)` plus an ever stronger pull.
-/// docs/gridmap.md, "Bringing the map to the integers"
+/// Moves an orientation-keeping map `x` towards the values `goal` of its chain columns, keeping
+/// every triangle's area positive: Newton steps on `sum_t A_t energy(J_t)` plus an ever stronger
+/// pull. docs/gridmap.md, "Bringing the map to the integers"
 Arrival bring_to_integers(const MapVariables& variables, TriangleSystem& system,
                           const std::vector<TargetShape>& shapes, Eigen::VectorXd x,
                           const Eigen::VectorXd& goal, const Context& context);

@@ -31,8 +31,8 @@ Matrix6 quadratic_matrix(const TargetShape& shape) {
     return sum;
 }
 
-/// Fill-reducing order of the vertex columns, followed by the chain columns, so that the trailing block
-/// of the factor is that of the Schur complement of the chain columns.
+/// Fill-reducing order of the vertex columns, followed by the chain columns, so that the trailing
+/// block of the factor is that of the Schur complement of the chain columns.
 Permutation chains_last(const SparseMatrix& lower, int vertex_columns) {
     const SparseMatrix block = lower.topLeftCorner(vertex_columns, vertex_columns);
     Permutation inverse;
@@ -51,19 +51,20 @@ public:
     LeastSquaresMap(const MapVariables& variables, TriangleSystem& system,
                     const std::vector<TargetShape>& shapes)
         : variables_(variables), system_(system), shapes_(shapes) {
-        SparseMatrix lower = system.assemble([&](int t) {
-            return quadratic_matrix(shapes[static_cast<std::size_t>(t)]);
-        });
+        SparseMatrix lower = system.assemble(
+            [&](int t) { return quadratic_matrix(shapes[static_cast<std::size_t>(t)]); });
         order_ = chains_last(lower, variables.vertex_columns);
         SparseMatrix ordered(lower.rows(), lower.cols());
-        ordered.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(order_);
+        ordered.selfadjointView<Eigen::Lower>() =
+            lower.selfadjointView<Eigen::Lower>().twistedBy(order_);
         factor_.compute(ordered);
         if (factor_.info() != Eigen::Success) {
             throw GridMapError("the seamless map's system is singular");
         }
     }
 
-    /// The map whose triangles come closest to `f(q) = a q + b conj(q)`, `parts` = (a, b) a triangle.
+    /// The map whose triangles come closest to `f(q) = a q + b conj(q)`, `parts` = (a, b) a
+    /// triangle.
     Eigen::VectorXd solve(const std::vector<std::pair<Complex, Complex>>& parts) const {
         const Eigen::VectorXd right = system_.gather([&](int t) -> Vector6 {
             const TargetShape& shape = shapes_[static_cast<std::size_t>(t)];

@@ -21,11 +21,12 @@ Vector3 area_normal(const QuadCorners& corners);
 /// Smallest scaled Jacobian over the corners, in [-1, 1]; positive where the quad is not folded.
 double least_scaled_jacobian(const QuadCorners& corners);
 
-/// Sum over the corners of the squared cosine, plus the barrier's penalty of corners close to folding. 0 for
-/// a rectangle; not changed by rigid motion and scale.
+/// Sum over the corners of the squared cosine, plus the barrier's penalty of corners close to
+/// folding. 0 for a rectangle; not changed by rigid motion and scale.
 double quad_cost(const QuadCorners& corners, const FoldBarrier& barrier);
 
-/// Where corner `corner` lies on the square that fits the quad best in the plane across `normal` (unit).
+/// Where corner `corner` lies on the square that fits the quad best in the plane across `normal`
+/// (unit).
 Vector3 fitted_square_corner(const QuadCorners& corners, const Vector3& normal, std::size_t corner);
 
 }  // namespace kinequad

@@ -9,7 +9,8 @@
 namespace kinequad {
 namespace {
 
-/// Scaled Jacobians below these are mended, in this order: the worst first, then what is close to it.
+/// Scaled Jacobians below these are mended, in this order: the worst first, then what is close to
+/// it.
 constexpr double safe_jacobian = 0.15;
 constexpr int most_unfolding_passes = 10;
 
@@ -31,8 +32,10 @@ std::vector<SampledFrame> sample_frames(const FrameSource& source, const RelaxOp
 }  // namespace
 
 QuadMesh relax_quads(const QuadMesh& quads, const FrameSource& source, const Topology& topology,
-                     const IntrinsicMetric& metric, const RelaxOptions& options, const Context& context) {
-    SlidingQuads sliding(quads, topology, metric, source.triangles(), sample_frames(source, options));
+                     const IntrinsicMetric& metric, const RelaxOptions& options,
+                     const Context& context) {
+    SlidingQuads sliding(quads, topology, metric, source.triangles(),
+                         sample_frames(source, options));
     const double limit = options.distance_limit * sliding.mean_edge_length();
     for (int round = 0; round < options.rounds; ++round) {
         context.report_progress("relaxation", static_cast<double>(round) / options.rounds);
@@ -46,8 +49,9 @@ QuadMesh relax_quads(const QuadMesh& quads, const FrameSource& source, const Top
         if (folded == 0 && pass > 0) break;
     }
     if (folded > 0) {
-        context.write_log(LogLevel::warning,
-                          fmt::format("relaxation: {} quads stay folded in the reference frame", folded));
+        context.write_log(
+            LogLevel::warning,
+            fmt::format("relaxation: {} quads stay folded in the reference frame", folded));
     }
     context.report_progress("relaxation", 1);
     return sliding.quads();

@@ -16,17 +16,18 @@ struct RelaxOptions {
     bool reference_is_rest_shape = false;
     /// Passes over all vertices.
     int rounds = 6;
-    /// Vertices of the input farther than this from the quads, in edge lengths of the quads, get a quad vertex
-    /// of their own: finger tips, ears.
+    /// Vertices of the input farther than this from the quads, in edge lengths of the quads, get a
+    /// quad vertex of their own: finger tips, ears.
     double distance_limit = 0.4;
 };
 
 /// Slides the vertices of a quad mesh over the surface so that quads come closer to squares in all
-/// sampled frames at once, and unfolds folded ones. Connectivity and boundary vertices stay. Every move
-/// lowers the sum over the sampled frames and the quads around the vertex of squared corner cosines plus
-/// a barrier against folding, so that no quad mesh gets worse by it. docs/relaxation.md
-/// Throws what `source` throws, and `Cancelled`.
+/// sampled frames at once, and unfolds folded ones. Connectivity and boundary vertices stay. Every
+/// move lowers the sum over the sampled frames and the quads around the vertex of squared corner
+/// cosines plus a barrier against folding, so that no quad mesh gets worse by it.
+/// docs/relaxation.md Throws what `source` throws, and `Cancelled`.
 QuadMesh relax_quads(const QuadMesh& quads, const FrameSource& source, const Topology& topology,
-                     const IntrinsicMetric& metric, const RelaxOptions& options, const Context& context);
+                     const IntrinsicMetric& metric, const RelaxOptions& options,
+                     const Context& context);
 
 }  // namespace kinequad

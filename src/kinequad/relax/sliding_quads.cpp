@@ -120,8 +120,8 @@ void SlidingQuads::place(int v, const SurfacePoint& point) {
     }
 }
 
-/// Where vertex `v` should go, as a vector in the frame of its triangle: the least-squares answer to what
-/// the frames ask for.
+/// Where vertex `v` should go, as a vector in the frame of its triangle: the least-squares answer
+/// to what the frames ask for.
 Vector2 SlidingQuads::wanted_move(int v) const {
     const SurfacePoint& point = quads_.vertex[at(v)];
     const auto layout = lay_out_triangle(side_lengths(topology_, metric_, point.triangle));
@@ -240,7 +240,8 @@ int SlidingQuads::cover_extremities(double limit, const Context& context) {
         if (topology_.vertex_half_edge[at(x)] < 0) continue;
         const ClosestPoint closest = surface.find(reference.input.row(x).transpose(), hint);
         hint = closest.point.triangle;
-        if (closest.squared_distance > limit * limit) far.push_back({closest.squared_distance, x, hint / 2});
+        if (closest.squared_distance > limit * limit)
+            far.push_back({closest.squared_distance, x, hint / 2});
     }
     std::sort(far.begin(), far.end(), [](const Far& a, const Far& b) {
         return a.distance != b.distance ? a.distance > b.distance : a.vertex < b.vertex;
@@ -254,7 +255,8 @@ int SlidingQuads::cover_extremities(double limit, const Context& context) {
         std::array<std::pair<double, int>, 4> corners;
         for (int k = 0; k < 4; ++k) {
             const int v = quads_.Q(f.quad, k);
-            corners[at(k)] = {(reference.vertices.row(v) - reference.input.row(f.vertex)).squaredNorm(), v};
+            corners[at(k)] = {
+                (reference.vertices.row(v) - reference.input.row(f.vertex)).squaredNorm(), v};
         }
         std::sort(corners.begin(), corners.end());
         const int h = topology_.vertex_half_edge[at(f.vertex)];
@@ -280,7 +282,8 @@ int SlidingQuads::cover_extremities(double limit, const Context& context) {
 double SlidingQuads::mean_edge_length() const {
     double sum = 0;
     for (int c = 0; c < static_cast<int>(quads_.Q.size()); ++c) {
-        sum += (frames_[0].vertices.row(neighbour(c, 1)) - frames_[0].vertices.row(neighbour(c, 0))).norm();
+        sum += (frames_[0].vertices.row(neighbour(c, 1)) - frames_[0].vertices.row(neighbour(c, 0)))
+                   .norm();
     }
     return quads_.Q.size() > 0 ? sum / static_cast<double>(quads_.Q.size()) : 0;
 }

@@ -11,29 +11,31 @@ namespace kinequad {
 
 /// A frame of the input that is looked at, and how much it counts.
 struct SampledFrame {
-    Positions input;    ///< n x 3
+    Positions input;  ///< n x 3
     double weight = 1;
 };
 
-/// A quad mesh whose vertices slide over the surface, watched in several frames at once. The first frame is
-/// the reference. Vertices on the boundary, and those that `cover_extremities` has put in place, stay.
+/// A quad mesh whose vertices slide over the surface, watched in several frames at once. The first
+/// frame is the reference. Vertices on the boundary, and those that `cover_extremities` has put in
+/// place, stay.
 class SlidingQuads {
 public:
     /// `F` m x 3 triangles of the input. The references have to outlive this.
     SlidingQuads(const QuadMesh& quads, const Topology& topology, const IntrinsicMetric& metric,
                  const Triangles& F, std::vector<SampledFrame> frames);
 
-    /// Moves every vertex once towards the squares that fit the quads around it best, where that lowers their
-    /// cost over all frames. Returns the number of moves.
+    /// Moves every vertex once towards the squares that fit the quads around it best, where that
+    /// lowers their cost over all frames. Returns the number of moves.
     int relax_pass(const Context& context);
 
-    /// Tries small moves of the vertices of quads whose scaled Jacobian in the reference frame is below
-    /// `safe_jacobian`, and keeps what opens them. Returns the number of quads still folded there.
+    /// Tries small moves of the vertices of quads whose scaled Jacobian in the reference frame is
+    /// below `safe_jacobian`, and keeps what opens them. Returns the number of quads still folded
+    /// there.
     int unfold_pass(double safe_jacobian, const Context& context);
 
-    /// Puts a quad vertex onto every vertex of the input that is farther than `limit` (units of the input)
-    /// from the quads in the reference frame and is no corner of what has been put in place before.
-    /// Returns the number of vertices put in place.
+    /// Puts a quad vertex onto every vertex of the input that is farther than `limit` (units of the
+    /// input) from the quads in the reference frame and is no corner of what has been put in place
+    /// before. Returns the number of vertices put in place.
     int cover_extremities(double limit, const Context& context);
 
     /// Mean length of the quads' edges in the reference frame, in units of the input.
@@ -72,8 +74,9 @@ private:
     const IntrinsicMetric& metric_;
     const Triangles& F_;
     std::vector<Frame> frames_;
-    std::vector<int> corner_start_;  ///< corners of vertex v: corner_[corner_start_[v] .. corner_start_[v+1]]
-    std::vector<int> corner_;        ///< corner c of quad q as 4q + c
+    std::vector<int>
+        corner_start_;  ///< corners of vertex v: corner_[corner_start_[v] .. corner_start_[v+1]]
+    std::vector<int> corner_;  ///< corner c of quad q as 4q + c
     std::vector<char> is_pinned_;
 };
 

@@ -32,10 +32,10 @@ Skeleton add_bones(CreatureBuilder& body) {
 
 void add_trunk(CreatureBuilder& body, const Skeleton& s) {
     body.add_tube({{{{0, 0.945, 0}, 0.142, s.pelvis},
-                    {{0, 1.02, 0.005}, 0.140, s.pelvis},
-                    {{0, 1.10, 0.004}, 0.124, s.pelvis, s.spine},
-                    {{0, 1.20, 0}, 0.132, s.spine, s.chest},
-                    {{0, 1.31, -0.002}, 0.152, s.chest},
+                    {{0, 1.02, 0.004}, 0.139, s.pelvis},
+                    {{0, 1.11, 0.004}, 0.129, s.pelvis, s.spine},
+                    {{0, 1.21, 0.001}, 0.136, s.spine, s.chest},
+                    {{0, 1.31, -0.004}, 0.149, s.chest},
                     {{0, 1.385, -0.012}, 0.125, s.chest}},
                    stretch_along(Vector3::UnitZ(), 1.35)});
     body.add_tube({{{{0, 1.40, -0.02}, 0.066, s.chest},

@@ -4,23 +4,37 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace kinequad::synth_detail {
 namespace {
 
-/// Straight pieces between two control points: enough that their corners do not show.
-constexpr int pieces_per_span = 8;
+/// Straight pieces between two control points, from which the place along the smooth axis is
+/// refined.
+constexpr int pieces_per_span = 4;
 /// Tubes this many blend widths farther than the nearest one no longer count: exp(-14) of a blend
 /// width is about 1e-8 metres.
 constexpr double far_blends = 14;
 
-/// Catmull-Rom; control points have to be about evenly spaced.
+/// Coefficients of the cubic from `from` to `to` with Catmull-Rom's slopes; control points have to
+/// be about evenly spaced.
 template <class T>
-T spline(const T& before, const T& from, const T& to, const T& after, double t) {
-    const double t2 = t * t;
-    const double t3 = t2 * t;
-    return 0.5 * (2 * from + t * (to - before) + t2 * (2 * before - 5 * from + 4 * to - after) +
-                  t3 * (3 * from - before - 3 * to + after));
+std::array<T, 4> cubic_between(const T& before, const T& from, const T& to, const T& after) {
+    return {from, 0.5 * (to - before), 0.5 * (2 * before - 5 * from + 4 * to - after),
+            0.5 * (3 * from - before - 3 * to + after)};
+}
+
+template <class T>
+T value_of(const std::array<T, 4>& cubic, double t) {
+    return cubic[0] + t * (cubic[1] + t * (cubic[2] + t * cubic[3]));
+}
+template <class T>
+T slope_of(const std::array<T, 4>& cubic, double t) {
+    return cubic[1] + t * (2 * cubic[2] + 3 * t * cubic[3]);
+}
+template <class T>
+T bend_of(const std::array<T, 4>& cubic, double t) {
+    return 2 * cubic[2] + 6 * t * cubic[3];
 }
 
 std::vector<BoneWeight> bones_between(const TubePoint& from, const TubePoint& to, double t) {
@@ -59,58 +73,94 @@ ImplicitBody::ImplicitBody(const Creature& creature)
 }
 
 void ImplicitBody::add_tube(const Tube& tube) {
-    const int index = static_cast<int>(stretch_.size());
-    stretch_.push_back(tube.stretch);
-    scale_.push_back(1 / tube.stretch.operatorNorm());
-    const int spans = static_cast<int>(tube.points.size()) - 1;
+    const int index = static_cast<int>(axes_.size());
+    Axis axis{tube.stretch, 1 / tube.stretch.operatorNorm(), {}};
+    const int last = static_cast<int>(tube.points.size()) - 1;
     const auto point = [&](int i) -> const TubePoint& {
-        return tube.points[static_cast<std::size_t>(std::clamp(i, 0, spans))];
+        return tube.points[static_cast<std::size_t>(std::clamp(i, 0, last))];
     };
-    const auto center_at = [&](int span, double t) -> Vector3 {
-        return spline<Vector3>(point(span - 1).center, point(span).center, point(span + 1).center,
-                               point(span + 2).center, t);
-    };
-    const auto radius_at = [&](int span, double t) {
-        return spline<double>(point(span - 1).radius, point(span).radius, point(span + 1).radius,
-                              point(span + 2).radius, t);
-    };
-    for (int span = 0; span < spans; ++span) {
+    const auto radius = [&](int i) { return point(i).radius; };
+    for (int span = 0; span < last; ++span) {
+        Span made;
+        made.center = cubic_between<Vector3>(
+            tube.stretch * point(span - 1).center, tube.stretch * point(span).center,
+            tube.stretch * point(span + 1).center, tube.stretch * point(span + 2).center);
+        made.radius = cubic_between<double>(radius(span - 1), radius(span), radius(span + 1),
+                                            radius(span + 2));
+        axis.spans.push_back(made);
         for (int piece = 0; piece < pieces_per_span; ++piece) {
             const double t0 = static_cast<double>(piece) / pieces_per_span;
             const double t1 = static_cast<double>(piece + 1) / pieces_per_span;
             Segment segment;
             segment.tube = index;
-            segment.from = tube.stretch * center_at(span, t0);
-            segment.along = tube.stretch * center_at(span, t1) - segment.from;
+            segment.place = span + t0;
+            segment.place_length = t1 - t0;
+            segment.from = value_of(made.center, t0);
+            segment.along = value_of(made.center, t1) - segment.from;
             segment.inverse_squared_length = 1 / segment.along.squaredNorm();
-            segment.from_radius = radius_at(span, t0);
-            segment.to_radius = radius_at(span, t1);
+            segment.from_radius = value_of(made.radius, t0);
+            segment.to_radius = value_of(made.radius, t1);
             segment.from_bones = bones_between(point(span), point(span + 1), t0);
             segment.to_bones = bones_between(point(span), point(span + 1), t1);
             segments_.push_back(std::move(segment));
-            const double reach = std::max(radius_at(span, t0), radius_at(span, t1)) + 2 * blend_;
-            for (const double t : {t0, t1}) {
-                low_ = low_.cwiseMin(center_at(span, t) - Vector3::Constant(reach));
-                high_ = high_.cwiseMax(center_at(span, t) + Vector3::Constant(reach));
-            }
+        }
+        const double reach = std::max(radius(span), radius(span + 1)) + 3 * blend_;
+        for (const int end : {span, span + 1}) {
+            low_ = low_.cwiseMin(point(end).center - Vector3::Constant(reach));
+            high_ = high_.cwiseMax(point(end).center + Vector3::Constant(reach));
         }
     }
+    axes_.push_back(std::move(axis));
 }
 
 ImplicitBody::Closest ImplicitBody::closest(const Segment& segment, const Vector3& point) const {
-    const auto tube = static_cast<std::size_t>(segment.tube);
-    const Vector3 offset = stretch_[tube] * point - segment.from;
+    const Axis& axis = axes_[static_cast<std::size_t>(segment.tube)];
+    const Vector3 offset = axis.stretch * point - segment.from;
     const double along =
         std::clamp(offset.dot(segment.along) * segment.inverse_squared_length, 0.0, 1.0);
     const Vector3 across = offset - along * segment.along;
     const double radius = segment.from_radius + along * (segment.to_radius - segment.from_radius);
-    return {scale_[tube] * (across.norm() - radius), along, across};
+    return {axis.scale * (across.norm() - radius), along};
+}
+
+ImplicitSample ImplicitBody::distance_to(const Axis& axis, const Vector3& point,
+                                         double place) const {
+    const Vector3 target = axis.stretch * point;
+    const auto last = static_cast<double>(axis.spans.size());
+    const auto split = [&](double at) {
+        const double span = std::min(std::floor(at), last - 1);
+        return std::pair(static_cast<std::size_t>(span), at - span);
+    };
+    // The tube is the envelope of the spheres along its axis, which is smooth also where round caps
+    // begin. Newton's method for the sphere whose surface is nearest, guarded to descend.
+    for (int step = 0; step < 5; ++step) {
+        const auto [span, t] = split(place);
+        const Span& at = axis.spans[span];
+        const Vector3 offset = target - value_of(at.center, t);
+        const double length = std::max(offset.norm(), 1e-6);
+        const Vector3 tangent = slope_of(at.center, t);
+        const double along = offset.dot(tangent) / length;
+        const double slope = -along - slope_of(at.radius, t);
+        const double least = 0.2 * tangent.squaredNorm() / length;
+        const double bend =
+            (tangent.squaredNorm() - along * along - offset.dot(bend_of(at.center, t))) / length -
+            bend_of(at.radius, t);
+        const double change = std::clamp(-slope / std::max(bend, least), -0.4, 0.4);
+        place = std::clamp(place + change, 0.0, last);
+        if (std::abs(change) < 1e-9) break;
+    }
+    const auto [span, t] = split(place);
+    const Vector3 offset = target - value_of(axis.spans[span].center, t);
+    const double length = offset.norm();
+    const Vector3 normal = length > 0 ? Vector3(offset / length) : Vector3(Vector3::UnitY());
+    return {axis.scale * (length - value_of(axis.spans[span].radius, t)),
+            axis.scale * (axis.stretch.transpose() * normal)};
 }
 
 ImplicitBody::Selection ImplicitBody::select(const Vector3& center, double radius) const {
     const double reach = 2 * steepness * radius;
     std::vector<double> distance(segments_.size());
-    std::vector<double> nearest(stretch_.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> nearest(axes_.size(), std::numeric_limits<double>::infinity());
     double nearest_of_all = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < segments_.size(); ++i) {
         distance[i] = closest(segments_[i], center).distance;
@@ -140,32 +190,28 @@ ImplicitSample ImplicitBody::sample(const Vector3& point, const Selection& selec
     Vector3 gradient = Vector3::Zero();
     for (std::size_t i = 0; i < selection.size();) {
         const int tube = segments_[static_cast<std::size_t>(selection[i])].tube;
-        Closest best{std::numeric_limits<double>::infinity(), 0, Vector3::Zero()};
-        const Segment* best_segment = nullptr;
+        double nearest = std::numeric_limits<double>::infinity();
+        double place = 0;
         for (; i < selection.size(); ++i) {
             const Segment& segment = segments_[static_cast<std::size_t>(selection[i])];
             if (segment.tube != tube) break;
             const Closest found = closest(segment, point);
-            if (found.distance < best.distance) {
-                best = found;
-                best_segment = &segment;
+            if (found.distance < nearest) {
+                nearest = found.distance;
+                place = segment.place + found.along * segment.place_length;
             }
         }
-        const double length = best.offset.norm();
-        Vector3 slope = length > 0 ? Vector3(best.offset / length) : Vector3(Vector3::UnitY());
-        if (best.along > 0 && best.along < 1) {
-            slope -= (best_segment->to_radius - best_segment->from_radius) *
-                     best_segment->inverse_squared_length * best_segment->along;
-        }
-        slope = scale_[static_cast<std::size_t>(tube)] *
-                (stretch_[static_cast<std::size_t>(tube)].transpose() * slope);
-        if (best.distance < least) {
-            const double shrink = std::exp((best.distance - least) / blend_);
+        // A tube too far to count is not worth the exact distance.
+        if (nearest - 0.01 > least + far_blends * blend_) continue;
+        const auto [distance, slope] =
+            distance_to(axes_[static_cast<std::size_t>(tube)], point, place);
+        if (distance < least) {
+            const double shrink = std::exp((distance - least) / blend_);
             sum = sum * shrink + 1;
             gradient = gradient * shrink + slope;
-            least = best.distance;
+            least = distance;
         } else {
-            const double share = std::exp((least - best.distance) / blend_);
+            const double share = std::exp((least - distance) / blend_);
             sum += share;
             gradient += share * slope;
         }
@@ -226,7 +272,7 @@ double ImplicitBody::local_radius(const Vector3& point) const {
         const Closest here = closest(segment, point);
         if (here.distance >= least) continue;
         least = here.distance;
-        radius = scale_[static_cast<std::size_t>(segment.tube)] *
+        radius = axes_[static_cast<std::size_t>(segment.tube)].scale *
                  (segment.from_radius + here.along * (segment.to_radius - segment.from_radius));
     }
     return radius;

@@ -53,26 +53,38 @@ private:
     /// A straight piece of a tube, in the tube's stretched space.
     struct Segment {
         int tube;
+        double place;         ///< where it begins along the axis, in spans
+        double place_length;  ///< spans that it covers
         Vector3 from;
         Vector3 along;
         double inverse_squared_length;
         double from_radius, to_radius;
         std::vector<BoneWeight> from_bones, to_bones;
     };
+    /// Axis and radius between two control points as cubics of t in [0, 1], in the stretched space.
+    struct Span {
+        std::array<Vector3, 4> center;
+        std::array<double, 4> radius;
+    };
+    struct Axis {
+        Eigen::Matrix3d stretch;
+        double scale;  ///< metres a stretched unit
+        std::vector<Span> spans;
+    };
     struct Closest {
         double distance;
         double along;
-        Vector3 offset;  ///< from the axis, stretched
     };
     Closest closest(const Segment& segment, const Vector3& point) const;
+    /// Distance to a tube and its gradient, from a first guess of the nearest place along its axis.
+    ImplicitSample distance_to(const Axis& axis, const Vector3& point, double place) const;
     void add_tube(const Tube& tube);
 
     double blend_;
     double skin_blend_;
     std::size_t bone_count_;
-    std::vector<Eigen::Matrix3d> stretch_;  ///< one a tube
-    std::vector<double> scale_;             ///< one a tube: metres a stretched unit
-    std::vector<Segment> segments_;         ///< in the order of their tubes
+    std::vector<Axis> axes_;         ///< one a tube
+    std::vector<Segment> segments_;  ///< in the order of their tubes
     Selection everything_;
     Vector3 low_, high_;
 };

@@ -159,6 +159,10 @@ void add_method_options(CLI::App& app, RunCommand& command) {
     app.add_option("--singularity-cost", options.singularity_cost,
                    "Energy that one singularity may cost, in squared radians (convex only)")
         ->capture_default_str();
+    app.add_option("--relax", options.relax_rounds,
+                   "Rounds in which the vertices slide over the surface towards squares; 0: none")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     app.add_option("--metric", command.metric,
                    "Edge lengths that the surface is known by: mean (over the frames) or reference "
                    "[mean; reference with --alpha 0]")

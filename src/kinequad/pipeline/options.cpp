@@ -28,6 +28,8 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape) {
           fmt::format("--curvature {}: has to be at least 0", options.curvature));
     check(std::isfinite(options.singularity_cost) && options.singularity_cost >= 0,
           fmt::format("--singularity-cost {}: has to be at least 0", options.singularity_cost));
+    check(options.relax_rounds >= 0,
+          fmt::format("--relax {}: has to be at least 0", options.relax_rounds));
     if (options.reference == Options::rest_shape) {
         check(has_rest_shape, "--reference rest: the input has no rest shape; name a frame");
     } else {

@@ -34,8 +34,9 @@ struct Options {
     double singularity_cost = 0.2;  ///< energy that a singularity may cost, rad^2 (`convex` only)
     /// Empty: `mean`, and `reference` where `alpha` is 0.
     std::optional<MetricChoice> metric;
-    int reference = 0;    ///< frame that is the reference, or `rest_shape`
-    bool metrics = true;  ///< measure the result in every frame
+    int reference = 0;     ///< frame that is the reference, or `rest_shape`
+    int relax_rounds = 8;  ///< passes in which vertices slide towards squares; 0: none
+    bool metrics = true;   ///< measure the result in every frame
 };
 
 /// True where the run sees the reference frame only: no influence of the animation and its metric.

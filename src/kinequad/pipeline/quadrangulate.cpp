@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "kinequad/core/error.h"
 #include "kinequad/deformation/compute_deformation_tensors.h"
@@ -13,6 +16,7 @@
 #include "kinequad/field/cross_field_targets.h"
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/io/memory_sequence.h"
+#include "kinequad/relax/relax_quads.h"
 
 namespace kinequad {
 namespace {
@@ -105,16 +109,17 @@ Result quadrangulate(const FrameSource& source, const Options& options, const Co
             : edge_length_for(result.topology, result.metric, result.options.vertices);
     finish_stage("metric");
 
+    // A run on a single pose sees the reference as if it were the whole sequence.
+    std::optional<MemorySequence> pose;
+    if (is_single_pose(result.options)) {
+        pose.emplace(source.triangles(), std::vector<Positions>{result.reference}, std::nullopt,
+                     source.name());
+    }
+    const FrameSource& frames = pose ? *pose : source;
     DeformationOptions deformation_options;
     deformation_options.edge_length = result.edge_length;
-    if (is_single_pose(result.options)) {
-        const MemorySequence pose(source.triangles(), {result.reference}, {}, source.name());
-        result.tensors = compute_deformation_tensors(pose, result.topology, result.metric,
-                                                     deformation_options, context);
-    } else {
-        result.tensors = compute_deformation_tensors(source, result.topology, result.metric,
-                                                     deformation_options, context);
-    }
+    result.tensors = compute_deformation_tensors(frames, result.topology, result.metric,
+                                                 deformation_options, context);
     finish_stage("deformation");
 
     // A symmetry map, once there is one, is made here and joins the targets of the field.
@@ -133,6 +138,19 @@ Result quadrangulate(const FrameSource& source, const Options& options, const Co
     result.quads = extract_quads(result.map, context);
     require_valid(verify_quad_mesh(result.quads, result.topology));
     finish_stage("extraction");
+
+    if (result.options.relax_rounds > 0) {
+        RelaxOptions relax_options;
+        relax_options.rounds = result.options.relax_rounds;
+        relax_options.reference_is_rest_shape =
+            !pose && result.options.reference == Options::rest_shape;
+        relax_options.reference_frame =
+            pose || relax_options.reference_is_rest_shape ? 0 : result.options.reference;
+        result.quads = relax_quads(result.quads, frames, result.topology, result.metric,
+                                   relax_options, context);
+        require_valid(verify_quad_mesh(result.quads, result.topology));
+    }
+    finish_stage("relaxation");
     return result;
 }
 

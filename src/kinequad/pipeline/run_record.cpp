@@ -26,6 +26,7 @@ Json options_record(const Options& options) {
         {"singularity_cost", options.singularity_cost},
         {"metric", options.metric == MetricChoice::mean ? "mean" : "reference"},
         {"reference", rest ? Json("rest") : Json(options.reference)},
+        {"relax_rounds", options.relax_rounds},
         {"metrics", options.metrics},
     };
 }

@@ -182,8 +182,9 @@ public:
           frame_count_(options.frame_count),
           context_(context) {
         const ImplicitBody body(creature_);
-        auto [half, whole] = mesh_body(body, options.triangle_count, context);
-        mesh_ = std::move(whole);
+        auto meshes = mesh_body(body, options.triangle_count, context);
+        const HalfMesh half = std::move(meshes.first);
+        mesh_ = std::move(meshes.second);
         half_count_ = half.vertices.size();
         weights_.resize(half_count_);
         parallel_for(half_count_, 512, context, [&](std::size_t begin, std::size_t end) {

@@ -37,11 +37,14 @@ QuadMesh relax_quads(const QuadMesh& quads, const FrameSource& source, const Top
     SlidingQuads sliding(quads, topology, metric, source.triangles(),
                          sample_frames(source, options));
     const double limit = options.distance_limit * sliding.mean_edge_length();
+    const ClosestPoints surface(sliding.reference(), source.triangles());
     for (int round = 0; round < options.rounds; ++round) {
         context.report_progress("relaxation", static_cast<double>(round) / options.rounds);
-        const bool is_covering = round % 2 == 1 || round + 1 == options.rounds;
+        const bool is_mending = round % 2 == 1 || round + 1 == options.rounds;
         sliding.relax_pass(context);
-        if (is_covering) sliding.cover_extremities(limit, context);
+        if (!is_mending) continue;
+        sliding.hug_surface(limit, surface, context);
+        sliding.cover_extremities(limit, context);
     }
     int folded = 0;
     for (int pass = 0; pass < most_unfolding_passes; ++pass) {

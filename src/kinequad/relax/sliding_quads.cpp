@@ -7,7 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include "kinequad/mesh/closest_points.h"
 #include "kinequad/mesh/trace_geodesic.h"
 
 namespace kinequad {
@@ -178,51 +177,89 @@ int SlidingQuads::relax_pass(const Context& context) {
     return moves;
 }
 
-bool SlidingQuads::open_up(int v, const FoldBarrier& barrier) {
+/// Moves vertex `v` to where `cost` is least among places around it, if that is less than here.
+void SlidingQuads::search_around(int v, const std::function<double()>& cost) {
     constexpr int directions = 12;
     const Positions& X = frames_[0].vertices;
     const double size = (X.row(neighbour(*corners_of(v).begin(), 1)) - X.row(v)).norm();
     const SurfacePoint before = quads_.vertex[at(v)];
     SurfacePoint best = before;
-    const double cost_before = cost_around(v, barrier);
-    double least = cost_before;
+    double least = cost();
     for (const double length : {0.5, 0.25, 0.12, 0.06, 0.03}) {
         for (int i = 0; i < directions; ++i) {
             const double angle = 2 * std::numbers::pi * i / directions;
             const Vector2 step = length * size * Vector2(std::cos(angle), std::sin(angle));
             place(v, trace_geodesic(topology_, metric_, before, step));
-            const double cost = cost_around(v, barrier);
-            if (cost < least) {
-                least = cost;
+            const double value = cost();
+            if (value < least) {
+                least = value;
                 best = quads_.vertex[at(v)];
             }
         }
     }
     place(v, best);
-    return least < cost_before - 1e-9;
 }
 
 int SlidingQuads::unfold_pass(double safe_jacobian, const Context& context) {
     const FoldBarrier barrier{safe_jacobian, 100};
+    const auto open_up = [&](int v) {
+        if (is_pinned_[at(v)] == 0) search_around(v, [&] { return cost_around(v, barrier); });
+    };
     int folded = 0;
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-        const double before = least_scaled_jacobian(corners_in(frames_[0], q));
-        if (before >= safe_jacobian) continue;
+        if (least_scaled_jacobian(corners_in(frames_[0], q)) >= safe_jacobian) continue;
         context.check_cancelled();
         for (int k = 0; k < 4; ++k) {
             const int v = quads_.Q(q, k);
-            if (is_pinned_[at(v)] == 0) open_up(v, barrier);
+            open_up(v);
             for (const int c : corners_of(v)) {
                 for (const int w : {neighbour(c, 1), neighbour(c, 3)}) {
-                    if (is_pinned_[at(w)] == 0 && least_jacobian_around(w) < safe_jacobian) {
-                        open_up(w, barrier);
-                    }
+                    if (least_jacobian_around(w) < safe_jacobian) open_up(w);
                 }
             }
         }
         folded += least_scaled_jacobian(corners_in(frames_[0], q)) <= 0 ? 1 : 0;
     }
     return folded;
+}
+
+/// How far the middle of a quad and of its edges are from the input in the reference frame.
+double SlidingQuads::distance_of(int quad, const ClosestPoints& surface) const {
+    const QuadCorners p = corners_in(frames_[0], quad);
+    int hint = quads_.vertex[at(quads_.Q(quad, 0))].triangle;
+    double farthest = 0;
+    const auto look = [&](const Vector3& point) {
+        const ClosestPoint closest = surface.find(point, hint);
+        hint = closest.point.triangle;
+        farthest = std::max(farthest, closest.squared_distance);
+    };
+    look((p[0] + p[1] + p[2] + p[3]) / 4);
+    for (std::size_t k = 0; k < 4; ++k) look((p[k] + p[(k + 1) % 4]) / 2);
+    return std::sqrt(farthest);
+}
+
+int SlidingQuads::hug_surface(double limit, const ClosestPoints& surface, const Context& context) {
+    constexpr double distance_weight = 40;
+    const FoldBarrier barrier{0.2, 100};
+    int far = 0;
+    for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
+        if (q % 256 == 0) context.check_cancelled();
+        if (distance_of(q, surface) <= limit) continue;
+        for (int k = 0; k < 4; ++k) {
+            const int v = quads_.Q(q, k);
+            if (is_pinned_[at(v)]) continue;
+            search_around(v, [&] {
+                double sum = cost_around(v, barrier) / static_cast<double>(frames_.size());
+                for (const int c : corners_of(v)) {
+                    const double excess = std::max(0.0, distance_of(c / 4, surface) / limit - 0.5);
+                    sum += distance_weight * excess * excess;
+                }
+                return sum;
+            });
+        }
+        far += distance_of(q, surface) > limit ? 1 : 0;
+    }
+    return far;
 }
 
 int SlidingQuads::cover_extremities(double limit, const Context& context) {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "kinequad/core/context.h"
 #include "kinequad/extract/quad_mesh.h"
+#include "kinequad/mesh/closest_points.h"
 #include "kinequad/mesh/intrinsic_metric.h"
 #include "kinequad/relax/quad_cost.h"
 
@@ -38,6 +40,13 @@ public:
     /// before. Returns the number of vertices put in place.
     int cover_extremities(double limit, const Context& context);
 
+    /// Tries small moves of the vertices of quads whose middle or edges leave the surface by more than `limit`
+    /// (units of the input) in the reference frame, as where they bridge a crease, and keeps what brings them
+    /// closer. `surface` is the input there. Returns the number of quads that stay farther away.
+    int hug_surface(double limit, const ClosestPoints& surface, const Context& context);
+
+    /// Positions (n x 3) of the input in the reference frame.
+    const Positions& reference() const { return frames_[0].input; }
     /// Mean length of the quads' edges in the reference frame, in units of the input.
     double mean_edge_length() const;
 
@@ -64,7 +73,8 @@ private:
     double least_jacobian_around(int v) const;
     Vector2 wanted_move(int v) const;
     bool improve(int v);
-    bool open_up(int v, const FoldBarrier& barrier);
+    void search_around(int v, const std::function<double()>& cost);
+    double distance_of(int quad, const ClosestPoints& surface) const;
     void place(int v, const SurfacePoint& point);
     void link_corners();
     void pin_boundary();

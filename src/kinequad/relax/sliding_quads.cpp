@@ -262,6 +262,33 @@ int SlidingQuads::hug_surface(double limit, const ClosestPoints& surface, const 
     return far;
 }
 
+/// Puts vertex `v` on `goal` and lets its neighbours give way; takes all back where a quad gets too slanted.
+bool SlidingQuads::move_onto(int v, const SurfacePoint& goal) {
+    const FoldBarrier barrier{0.25, 100};
+    std::vector<std::pair<int, SurfacePoint>> before = {{v, quads_.vertex[at(v)]}};
+    for (const int c : corners_of(v)) {
+        for (const int k : {1, 2}) before.emplace_back(neighbour(c, k), quads_.vertex[at(neighbour(c, k))]);
+    }
+    double least_before = 1;
+    for (const auto& [w, point] : before) least_before = std::min(least_before, least_jacobian_around(w));
+    const double enough = std::min(least_before, least_covering_jacobian);
+    const auto least_around = [&] {
+        double least = 1;
+        for (const auto& [w, point] : before) least = std::min(least, least_jacobian_around(w));
+        return least;
+    };
+    place(v, goal);
+    for (int round = 0; round < 2 && least_around() < enough; ++round) {
+        for (const auto& [w, point] : before) {
+            if (w == v || is_pinned_[at(w)]) continue;
+            search_around(w, [&] { return cost_around(w, barrier); });
+        }
+    }
+    if (least_around() >= enough) return true;
+    for (const auto& [w, point] : before) place(w, point);
+    return false;
+}
+
 int SlidingQuads::cover_extremities(double limit, const Context& context) {
     const Frame& reference = frames_[0];
     const ClosestPoints surface(reference.vertices, cut_quads(quads_.Q, reference.vertices));
@@ -300,13 +327,7 @@ int SlidingQuads::cover_extremities(double limit, const Context& context) {
         const SurfacePoint extremity{h / 3, Vector3::Unit(h % 3)};
         for (const auto& [distance, v] : corners) {
             if (is_pinned_[at(v)]) continue;
-            const SurfacePoint before = quads_.vertex[at(v)];
-            const double jacobian_before = least_jacobian_around(v);
-            place(v, extremity);
-            if (least_jacobian_around(v) < std::min(jacobian_before, least_covering_jacobian)) {
-                place(v, before);
-                continue;
-            }
+            if (!move_onto(v, extremity)) continue;
             is_pinned_[at(v)] = 1;
             for (const int c : corners_of(v)) is_busy[at(c / 4)] = 1;
             ++placed;

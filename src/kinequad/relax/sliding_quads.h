@@ -74,6 +74,7 @@ private:
     Vector2 wanted_move(int v) const;
     bool improve(int v);
     void search_around(int v, const std::function<double()>& cost);
+    bool move_onto(int v, const SurfacePoint& goal);
     double distance_of(int quad, const ClosestPoints& surface) const;
     void place(int v, const SurfacePoint& point);
     void link_corners();

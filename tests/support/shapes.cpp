@@ -55,7 +55,8 @@ TriangleMesh cube(int n) {
     std::vector<Vector3> points;
     std::map<std::array<int, 3>, int> ids;
     const auto id_of = [&](const Eigen::Vector3i& p) {
-        const auto [where, is_new] = ids.try_emplace({p[0], p[1], p[2]}, static_cast<int>(points.size()));
+        const auto [where, is_new] =
+            ids.try_emplace({p[0], p[1], p[2]}, static_cast<int>(points.size()));
         if (is_new) points.emplace_back(2.0 * p.cast<double>() / n - Vector3::Ones());
         return where->second;
     };
@@ -76,7 +77,8 @@ TriangleMesh cube(int n) {
 }
 
 TriangleMesh sphere(int levels) {
-    std::vector<Vector3> points = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    std::vector<Vector3> points = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                   {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
     std::vector<Corners> triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
                                       {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     for (int level = 0; level < levels; ++level) {
@@ -85,8 +87,9 @@ TriangleMesh sphere(int levels) {
             const auto [where, is_new] =
                 middle.try_emplace(std::minmax(a, b), static_cast<int>(points.size()));
             if (is_new) {
-                points.push_back((points[static_cast<std::size_t>(a)] + points[static_cast<std::size_t>(b)])
-                                     .normalized());
+                points.push_back(
+                    (points[static_cast<std::size_t>(a)] + points[static_cast<std::size_t>(b)])
+                        .normalized());
             }
             return where->second;
         };

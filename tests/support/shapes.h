@@ -6,7 +6,8 @@ namespace kinequad::test {
 
 /// Regular tetrahedron, closed, 4 triangles.
 TriangleMesh tetrahedron();
-/// Cube of edge length 2 around the origin; each side is divided into `n` x `n` squares, each cut in two.
+/// Cube of edge length 2 around the origin; each side is divided into `n` x `n` squares, each cut
+/// in two.
 TriangleMesh cube(int n = 1);
 /// Unit sphere: an octahedron divided `levels` times, 8 * 4^levels triangles.
 TriangleMesh sphere(int levels);

@@ -14,7 +14,8 @@ enum class LogLevel { debug, info, warning };
 /// whether the user wants it to stop, and the seed of everything random. Nothing is global.
 /// Copies share the sinks and the cancellation flag.
 struct Context {
-    /// Number of threads a stage may use; 0 means all that the machine has. Results do not depend on it.
+    /// Number of threads a stage may use; 0 means all that the machine has. Results do not depend
+    /// on it.
     int threads = 0;
     /// Seed of every random choice.
     std::uint64_t seed = 1;

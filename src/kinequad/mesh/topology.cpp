@@ -17,10 +17,11 @@ void check_triangles(const Triangles& F, int vertex_count) {
     for (int t = 0; t < F.rows(); ++t) {
         for (int k = 0; k < 3; ++k) {
             if (F(t, k) < 0 || F(t, k) >= vertex_count) {
-                throw InputError(InputFault::mesh,
-                                 fmt::format("triangle {} names vertex {}, but there are {} vertices; "
-                                             "mend the face list",
-                                             t, F(t, k), vertex_count));
+                throw InputError(
+                    InputFault::mesh,
+                    fmt::format("triangle {} names vertex {}, but there are {} vertices; "
+                                "mend the face list",
+                                t, F(t, k), vertex_count));
             }
         }
         if (F(t, 0) == F(t, 1) || F(t, 1) == F(t, 2) || F(t, 2) == F(t, 0)) {
@@ -57,9 +58,10 @@ void pair_half_edges(Topology& topology) {
         if (j - i > 2) {
             throw InputError(
                 InputFault::mesh,
-                fmt::format("edge {}-{} is non-manifold: triangles {}, {} and {} share it; split the "
-                            "surface there",
-                            a, b, first / 3, keys[i + 1].half_edge / 3, keys[i + 2].half_edge / 3));
+                fmt::format(
+                    "edge {}-{} is non-manifold: triangles {}, {} and {} share it; split the "
+                    "surface there",
+                    a, b, first / 3, keys[i + 1].half_edge / 3, keys[i + 2].half_edge / 3));
         }
         if (j - i == 2) {
             const int second = keys[i + 1].half_edge;
@@ -111,10 +113,11 @@ void link_vertices(Topology& topology) {
             h = topology.rotate_counter_clockwise(h);
         } while (h >= 0 && h != start && reached <= degree[index(v)]);
         if (reached != degree[index(v)]) {
-            throw InputError(InputFault::mesh,
-                             fmt::format("vertex {} is non-manifold: its {} triangles form more than "
-                                         "one fan; duplicate the vertex, one copy a fan",
-                                         v, degree[index(v)]));
+            throw InputError(
+                InputFault::mesh,
+                fmt::format("vertex {} is non-manifold: its {} triangles form more than "
+                            "one fan; duplicate the vertex, one copy a fan",
+                            v, degree[index(v)]));
         }
     }
 }
@@ -186,9 +189,9 @@ std::vector<std::vector<int>> boundary_loops(const Topology& topology) {
 
 SurfaceCounts count_surface(const Topology& topology) {
     SurfaceCounts counts;
-    counts.vertices = static_cast<int>(
-        std::count_if(topology.vertex_half_edge.begin(), topology.vertex_half_edge.end(),
-                      [](int h) { return h >= 0; }));
+    counts.vertices = static_cast<int>(std::count_if(topology.vertex_half_edge.begin(),
+                                                     topology.vertex_half_edge.end(),
+                                                     [](int h) { return h >= 0; }));
     counts.edges = topology.edge_count;
     counts.triangles = topology.triangle_count;
     const std::vector<int> component = triangle_components(topology);

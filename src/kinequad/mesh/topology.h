@@ -7,8 +7,8 @@
 namespace kinequad {
 
 /// Half-edge connectivity of a manifold, consistently oriented triangle mesh, with or without
-/// boundary. Half-edge `h = 3 * t + k` runs from corner `k` of triangle `t` to corner `k + 1`; it is
-/// also the name of that corner. Computed once, passed along, never changed.
+/// boundary. Half-edge `h = 3 * t + k` runs from corner `k` of triangle `t` to corner `k + 1`; it
+/// is also the name of that corner. Computed once, passed along, never changed.
 struct Topology {
     int vertex_count = 0;
     int triangle_count = 0;
@@ -17,12 +17,14 @@ struct Topology {
     std::vector<int> twin;            ///< 3m: the half-edge on the other side, -1 on the boundary
     std::vector<int> edge;            ///< 3m: undirected edge of a half-edge
     std::vector<int> edge_half_edge;  ///< e: the lower of the half-edges of an edge
-    /// n: a half-edge that leaves the vertex, -1 where the vertex is isolated. On the boundary it is
-    /// the one without twin, the first in counter-clockwise order.
+    /// n: a half-edge that leaves the vertex, -1 where the vertex is isolated. On the boundary it
+    /// is the one without twin, the first in counter-clockwise order.
     std::vector<int> vertex_half_edge;
 
     static int next(int half_edge) { return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1; }
-    static int previous(int half_edge) { return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1; }
+    static int previous(int half_edge) {
+        return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
+    }
     static int triangle(int half_edge) { return half_edge / 3; }
     /// Vertex that the half-edge ends at.
     int target(int half_edge) const { return origin[static_cast<std::size_t>(next(half_edge))]; }
@@ -36,7 +38,8 @@ struct Topology {
         return other < 0 ? -1 : next(other);
     }
     bool is_boundary_edge(int edge_index) const {
-        return twin[static_cast<std::size_t>(edge_half_edge[static_cast<std::size_t>(edge_index)])] < 0;
+        return twin[static_cast<std::size_t>(
+                   edge_half_edge[static_cast<std::size_t>(edge_index)])] < 0;
     }
     bool is_boundary_vertex(int vertex) const {
         const int half_edge = vertex_half_edge[static_cast<std::size_t>(vertex)];
@@ -45,8 +48,8 @@ struct Topology {
 };
 
 /// Builds the half-edge connectivity of `F` (m x 3) over `vertex_count` vertices.
-/// Throws `InputError` (mesh), naming the triangles or the vertex, where an index is out of range, a
-/// triangle repeats a vertex, an edge has more than two triangles, two neighbours disagree on
+/// Throws `InputError` (mesh), naming the triangles or the vertex, where an index is out of range,
+/// a triangle repeats a vertex, an edge has more than two triangles, two neighbours disagree on
 /// orientation, or the triangles around a vertex form more than one fan.
 Topology build_topology(const Triangles& F, int vertex_count);
 

@@ -4,7 +4,8 @@
 
 namespace kinequad {
 
-/// An indexed triangle mesh in space. One frame of an animation is such a mesh; all frames share `F`.
+/// An indexed triangle mesh in space. One frame of an animation is such a mesh; all frames share
+/// `F`.
 struct TriangleMesh {
     Positions V;  ///< n x 3 vertex positions, in the units of the input
     Triangles F;  ///< m x 3 vertex indices
@@ -17,7 +18,8 @@ struct SurfacePoint {
     Vector3 barycentric = Vector3(1, 0, 0);
 };
 
-/// Length of the diagonal of the axis-aligned bounding box of the rows of `V`; 0 where there is none.
+/// Length of the diagonal of the axis-aligned bounding box of the rows of `V`; 0 where there is
+/// none.
 double bounding_box_diagonal(const Positions& V);
 
 /// Position of a surface point in the frame whose vertex positions are `V` (n x 3).

@@ -139,8 +139,9 @@ double gain_of(const SingularityPrice& price, const SolvedField& field,
     for (const PathStep& step : candidate.path) {
         gain += pi * step.change * field.residual[step.edge];
     }
-    return gain + price.change(field.index, field.neighbours, candidate.from, candidate.to, 1,
-                               candidate.path.size() == 1);
+    const bool joined = candidate.path.size() == 1 && price.is_tight(candidate.path.front().edge);
+    return gain +
+           price.change(field.index, field.neighbours, candidate.from, candidate.to, 1, joined);
 }
 
 }  // namespace

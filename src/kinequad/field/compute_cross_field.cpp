@@ -1,6 +1,7 @@
 #include "kinequad/field/compute_cross_field.h"
 
 #include <numbers>
+#include <utility>
 
 #include "kinequad/field/convex_field.h"
 #include "kinequad/field/period_search.h"
@@ -26,17 +27,39 @@ FieldState canonical(const FieldProblem& problem, FieldState state) {
     return state;
 }
 
+/// Edges too short to be a few quad edges of the wanted length.
+std::vector<bool> short_edges(const IntrinsicMetric& metric, double edge_length) {
+    std::vector<bool> result(static_cast<std::size_t>(metric.edge_length.size()));
+    for (std::size_t e = 0; e < result.size(); ++e) {
+        result[e] = metric.edge_length[static_cast<Eigen::Index>(e)] < 2 * edge_length;
+    }
+    return result;
+}
+
+/// Re-solves until no soft target is nearer at another quarter turn.
+FieldState settle_targets(const FieldProblem& problem, const AngleSolver& solver,
+                          const SingularityPrice& price, SolvedField field) {
+    constexpr int largest_rounds = 20;
+    for (int round = 0; round < largest_rounds; ++round) {
+        SolvedField next = solve_field(problem, solver, price, field.state);
+        if (!(next.energy < field.energy * (1 - 1e-12))) break;
+        field = std::move(next);
+    }
+    return std::move(field.state);
+}
+
 FieldState search_field(const FieldProblem& problem, const Topology& topology,
                         const IntrinsicMetric& metric, const CrossFieldOptions& options,
                         const Context& context) {
     const AngleSolver solver(problem);
     const SingularityPrice price(problem, topology, options.singularity_cost,
-                                 options.adjacency_cost);
+                                 options.adjacency_cost, short_edges(metric, options.edge_length));
     const auto search = [&](const FieldProblem& form, FieldState state) {
         SolvedField field = solve_field(form, solver, price, std::move(state));
         field = improve_periods(form, solver, price, std::move(field), context);
         field = cancel_pairs(form, solver, price, std::move(field), context);
-        return improve_periods(form, solver, price, std::move(field), context).state;
+        field = improve_periods(form, solver, price, std::move(field), context);
+        return settle_targets(form, solver, price, std::move(field));
     };
     const auto start = [&](const FieldProblem& form) {
         FieldState state;
@@ -54,12 +77,12 @@ FieldState round_field(const FieldProblem& problem, const Topology& topology,
                        const Context& context) {
     const AngleSolver solver(problem);
     // Without a price singularities stay where rounding puts them, but for those that admit no map.
-    const SingularityPrice price(problem, topology, 0, 0);
+    const SingularityPrice price(problem, topology, 0);
     SolvedField field = solve_field(problem, solver, price, round_greedily(problem, context));
     if (price.sum(field.index) > 0) {
         field = improve_periods(problem, solver, price, std::move(field), context);
     }
-    return field.state;
+    return settle_targets(problem, solver, price, std::move(field));
 }
 
 }  // namespace

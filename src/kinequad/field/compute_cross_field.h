@@ -29,9 +29,9 @@ struct CrossFieldOptions {
     /// (`convex` only).
     double edge_length = 0;
     /// Edges that crosses on both sides are aligned with. Boundary edges always are.
-    std::vector<int> feature_edges;
+    std::vector<int> feature_edges = {};
     /// Further triangles whose cross is given; a boundary or feature edge has precedence.
-    std::vector<FixedDirection> fixed_directions;
+    std::vector<FixedDirection> fixed_directions = {};
 };
 
 /// Computes a smooth cross field that is drawn to `targets` (m; both vectors may be empty for none)

@@ -19,6 +19,8 @@ void check(const CrossFieldTargetOptions& options, const DeformationTensors& ten
             "alpha must not be negative");
     require(!paper || options.alpha < 1, InputFault::usage,
             "alpha must be less than 1 with the paper's field");
+    require(!paper || options.largest_stretch > 0, InputFault::usage,
+            "the stretch of full weight must be positive");
     require(paper || options.edge_length > 0, InputFault::usage,
             "the wanted edge length must be positive");
     KQ_DEBUG_ASSERT(tensors.shear.size() == topology.triangle_count);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <utility>
 
 namespace kinequad {
 namespace {
@@ -33,7 +34,7 @@ double step_gain(const FieldProblem& problem, const SingularityPrice& price,
     const int b = problem.head[at(edge)];
     const double energy =
         pi * pi / 4 * (rigid ? 1 : step_share) + pi * change * field.residual[edge];
-    return energy + price.change(field.index, field.neighbours, a, b, change, true);
+    return energy + price.change(field.index, field.neighbours, a, b, change, price.is_tight(edge));
 }
 
 /// Steps that promise to lower the cost, best first, no two of which touch the same vertex.
@@ -65,11 +66,13 @@ std::vector<Step> promising_steps(const FieldProblem& problem, const Singularity
 }  // namespace
 
 SingularityPrice::SingularityPrice(const FieldProblem& problem, const Topology& topology,
-                                   double singularity_cost, double adjacency_cost)
+                                   double singularity_cost, double adjacency_cost,
+                                   std::vector<bool> tight)
     : problem_(problem),
       boundary_(at(topology.vertex_count)),
       singularity_cost_(singularity_cost),
-      adjacency_cost_(adjacency_cost) {
+      adjacency_cost_(adjacency_cost),
+      tight_(std::move(tight)) {
     for (int v = 0; v < topology.vertex_count; ++v) {
         boundary_[at(v)] = topology.is_boundary_vertex(v);
     }
@@ -89,6 +92,7 @@ double SingularityPrice::vertex_price(int vertex, int index) const {
 Eigen::VectorXi SingularityPrice::singular_neighbours(const Eigen::VectorXi& index) const {
     Eigen::VectorXi count = Eigen::VectorXi::Zero(index.size());
     for (int e = 0; e < problem_.edge_count; ++e) {
+        if (!is_tight(e)) continue;
         const int a = problem_.tail[at(e)];
         const int b = problem_.head[at(e)];
         if (index[b] != 0) ++count[a];
@@ -103,7 +107,7 @@ double SingularityPrice::sum(const Eigen::VectorXi& index) const {
         if (index[v] != 0) result += vertex_price(v, index[v]);
     }
     for (int e = 0; e < problem_.edge_count; ++e) {
-        if (index[problem_.tail[at(e)]] != 0 && index[problem_.head[at(e)]] != 0) {
+        if (is_tight(e) && index[problem_.tail[at(e)]] != 0 && index[problem_.head[at(e)]] != 0) {
             result += adjacency_cost_;
         }
     }

@@ -8,16 +8,21 @@ namespace kinequad {
 /// as no integer-grid map has room there.
 class SingularityPrice {
 public:
+    /// `tight` (e) tells which mesh edges are short; empty for none.
     SingularityPrice(const FieldProblem& problem, const Topology& topology, double singularity_cost,
-                     double adjacency_cost);
+                     double adjacency_cost = 0, std::vector<bool> tight = {});
     /// Price of all singularities (n).
     double sum(const Eigen::VectorXi& index) const;
-    /// Number of singular vertices beside every vertex (n).
+    /// Number of singular vertices across the short edges of every vertex (n).
     Eigen::VectorXi singular_neighbours(const Eigen::VectorXi& index) const;
     /// What the price changes by when the index of `from` rises by `change` and that of `to` falls
     /// by it.
     double change(const Eigen::VectorXi& index, const Eigen::VectorXi& neighbours, int from, int to,
                   int change, bool joined) const;
+
+    bool is_tight(int edge) const {
+        return !tight_.empty() && tight_[static_cast<std::size_t>(edge)];
+    }
 
 private:
     double vertex_price(int vertex, int index) const;
@@ -26,6 +31,7 @@ private:
     std::vector<bool> boundary_;
     double singularity_cost_;
     double adjacency_cost_;
+    std::vector<bool> tight_;
 };
 
 /// A solved field with everything that the search over its periods asks for. Internal to this
@@ -34,7 +40,7 @@ struct SolvedField {
     FieldState state;
     Eigen::VectorXd residual;    ///< e: w_e
     Eigen::VectorXi index;       ///< n: quarters
-    Eigen::VectorXi neighbours;  ///< n: singular vertices beside a vertex
+    Eigen::VectorXi neighbours;  ///< n: singular vertices across the short edges of a vertex
     double energy = 0;
     double cost = 0;  ///< energy plus the price of the singularities
 };

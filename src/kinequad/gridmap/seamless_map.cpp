@@ -20,12 +20,16 @@ constexpr double margin = 0.1;
 constexpr double over_relaxation = 1.6;
 constexpr int most_rounds = 400;
 
+double weight_of(bool anti, Complex direction) {
+    return anti && direction.imag() != 0 ? shear_weight : 1;
+}
+
 Matrix6 quadratic_matrix(const TargetShape& shape) {
     Matrix6 sum = Matrix6::Zero();
     for (const bool anti : {false, true}) {
         for (const Complex direction : {Complex(1, 0), Complex(0, 1)}) {
             const Vector6 f = shape.functional(direction, anti);
-            sum += 4 * shape.area * f * f.transpose();
+            sum += 4 * shape.area * weight_of(anti, direction) * f * f.transpose();
         }
     }
     return sum;
@@ -69,7 +73,8 @@ public:
         const Eigen::VectorXd right = system_.gather([&](int t) -> Vector6 {
             const TargetShape& shape = shapes_[static_cast<std::size_t>(t)];
             const auto& [a, b] = parts[static_cast<std::size_t>(t)];
-            return 4 * shape.area * (shape.functional(a, false) + shape.functional(b, true));
+            return 4 * shape.area * (shape.functional(a, false) +
+                                     shape.functional({b.real(), shear_weight * b.imag()}, true));
         });
         return order_.transpose() * factor_.solve(order_ * right).eval();
     }

@@ -15,8 +15,10 @@ constexpr double quarter = std::numbers::pi / 2;
 constexpr double local_tolerance = 1e-4;
 /// Angles that one rounding may re-solve locally.
 constexpr int local_budget = 400;
-/// Roundings whose local re-solve did not settle before everything is solved again.
-constexpr int largest_unsettled = 40;
+/// Roundings whose local re-solve did not settle before everything is solved again: at first, and
+/// by how much more the next time. What is still free then weighs ever less.
+constexpr double first_patience = 40;
+constexpr double patience_growth = 1.03;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -45,6 +47,7 @@ public:
         for (int e = 0; e < problem_.edge_count; ++e) {
             if (problem_.right[at(e)] >= 0 && !decided_[at(e)]) offer(e);
         }
+        double patience = first_patience;
         int unsettled = 0;
         int rounds = 0;
         while (!queue_.empty()) {
@@ -54,8 +57,9 @@ public:
             if (++rounds % 1024 == 0) context.check_cancelled();
             decide(offer.edge, static_cast<int>(std::lround(relaxed_period(offer.edge))));
             if (!settle_locally(offer.edge)) ++unsettled;
-            if (unsettled > largest_unsettled) {
+            if (unsettled > patience) {
                 unsettled = 0;
+                patience *= patience_growth;
                 context.check_cancelled();
                 solve_globally();
             }

@@ -12,10 +12,11 @@ namespace kinequad {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// How much a shear of the grid lines counts, against turning and stretching them, in the energy
-/// `2 |a - 1|^2 + 2 (Re b)^2 + 2 shear_weight (Im b)^2` of a triangle: stretched quads are still rectangles,
-/// sheared ones are not.
+/// How much shearing the grid lines, and turning them away from the cross, count against stretching quads in
+/// the energy `2 (Re a - 1)^2 + 2 turn_weight (Im a)^2 + 2 (Re b)^2 + 2 shear_weight (Im b)^2` of a
+/// triangle: a stretched quad is still a rectangle along the cross.
 inline constexpr double shear_weight = 4;
+inline constexpr double turn_weight = 2;
 
 /// The shape a triangle should have in the parameter plane, as what is needed to differentiate a
 /// linear map of it: `f(q) = a q + b conj(q) + const`, `a = sum_k g_k z_k`, `b = sum_k conj(g_k)

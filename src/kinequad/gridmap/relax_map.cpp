@@ -19,7 +19,7 @@ constexpr double least_curvature = 1e-3;
 /// Diagonal that keeps a column where it is.
 constexpr double pinned = 1e12;
 
-/// `|J - 1|^2 + 2 (shear_weight - 1) (Im b)^2 + barrier ((|J|^2 + 1) / det + det - 4)` of `f(q) = a q + b conj(q)`, with its first and
+/// `|J - 1|^2 + 2 (turn_weight - 1) (Im a)^2 + 2 (shear_weight - 1) (Im b)^2 + barrier ((|J|^2 + 1) / det + det - 4)` of `f(q) = a q + b conj(q)`, with its first and
 /// second derivative, the latter made positive. With the singular values s1 = |a| + |b| and
 /// s2 = |a| - |b| the Hessian splits into the radial directions of a and b, which mix, and their
 /// tangential directions, which do not.
@@ -36,7 +36,9 @@ double local_value(Complex a, Complex b) {
     const double nb = std::norm(b);
     const double det = na - nb;
     if (det <= 0) return std::numeric_limits<double>::infinity();
-    return 2 * (std::norm(a - 1.0) + nb + (shear_weight - 1) * b.imag() * b.imag()) + barrier * ((2 * (na + nb) + 1) / det + det - 4);
+    return 2 * (std::norm(a - 1.0) + nb + (turn_weight - 1) * a.imag() * a.imag() +
+                (shear_weight - 1) * b.imag() * b.imag()) +
+           barrier * ((2 * (na + nb) + 1) / det + det - 4);
 }
 
 LocalEnergy local_energy(Complex a, Complex b) {
@@ -57,7 +59,7 @@ LocalEnergy local_energy(Complex a, Complex b) {
     // By s1 = p + m, s2 = p - m.
     const double by_p = d1 + d2;
     const double by_m = d1 - d2;
-    e.slope_a = 4.0 * (a - 1.0) + by_p * e.unit_a;
+    e.slope_a = Complex(4 * (a.real() - 1), 4 * turn_weight * a.imag()) + by_p * e.unit_a;
     e.slope_b = Complex(4 * b.real(), 4 * shear_weight * b.imag()) + by_m * e.unit_b;
     double aa = 4 + d11 + 2 * d12 + d22;
     double bb = 4 + d11 - 2 * d12 + d22;
@@ -200,7 +202,9 @@ private:
                     e.tangential_a * ta * ta.transpose() + e.tangential_b * tb * tb.transpose();
         h += e.radial_ab * (ra * rb.transpose() + rb * ra.transpose());
         const Vector6 shear = shape.functional(i, true);
-        h += 4 * (shear_weight - 1) * shear * shear.transpose();
+        const Vector6 turn = shape.functional(i, false);
+        h += 4 * (shear_weight - 1) * shear * shear.transpose() +
+             4 * (turn_weight - 1) * turn * turn.transpose();
         return shape.area * h;
     }
 

@@ -21,7 +21,8 @@ constexpr double over_relaxation = 1.6;
 constexpr int most_rounds = 400;
 
 double weight_of(bool anti, Complex direction) {
-    return anti && direction.imag() != 0 ? shear_weight : 1;
+    if (direction.imag() == 0) return 1;
+    return anti ? shear_weight : turn_weight;
 }
 
 Matrix6 quadratic_matrix(const TargetShape& shape) {
@@ -73,7 +74,7 @@ public:
         const Eigen::VectorXd right = system_.gather([&](int t) -> Vector6 {
             const TargetShape& shape = shapes_[static_cast<std::size_t>(t)];
             const auto& [a, b] = parts[static_cast<std::size_t>(t)];
-            return 4 * shape.area * (shape.functional(a, false) +
+            return 4 * shape.area * (shape.functional({a.real(), turn_weight * a.imag()}, false) +
                                      shape.functional({b.real(), shear_weight * b.imag()}, true));
         });
         return order_.transpose() * factor_.solve(order_ * right).eval();

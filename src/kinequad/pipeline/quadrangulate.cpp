@@ -14,6 +14,7 @@
 #include "kinequad/extract/verify_quad_mesh.h"
 #include "kinequad/field/compute_cross_field.h"
 #include "kinequad/field/cross_field_targets.h"
+#include "kinequad/field/verify_cross_field.h"
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/io/memory_sequence.h"
 #include "kinequad/relax/relax_quads.h"
@@ -55,6 +56,15 @@ void check_areas(const FrameSource& source, const Topology& topology,
     }
 }
 
+void require_valid_field(const CrossFieldReport& report) {
+    if (report.valid()) return;
+    throw VerificationError(fmt::format(
+        "the cross field is not valid: index sum {} instead of {} quarters, {} wrong indices, {} "
+        "broken holonomies, {} unaligned triangles; please report this input",
+        report.index_sum, report.expected_index_sum, report.wrong_indices, report.broken_holonomies,
+        report.unaligned_triangles));
+}
+
 CrossField make_cross_field(const Result& result, const Context& context) {
     CrossFieldTargetOptions target_options;
     target_options.method = result.options.field;
@@ -67,7 +77,10 @@ CrossField make_cross_field(const Result& result, const Context& context) {
     options.method = result.options.field;
     options.singularity_cost = result.options.singularity_cost;
     options.edge_length = result.edge_length;
-    return compute_cross_field(result.topology, result.metric, targets, options, context);
+    CrossField field =
+        compute_cross_field(result.topology, result.metric, targets, options, context);
+    require_valid_field(verify_cross_field(result.topology, result.metric, field, options));
+    return field;
 }
 
 void require_valid_map(const GridMap& map) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "kinequad/field/singularities.h"
 #include "kinequad/measure/format_metrics.h"
 #include "kinequad/pipeline/version.h"
 
@@ -42,20 +43,21 @@ Json counts_record(const SurfaceCounts& counts) {
 
 Json field_record(const Result& result) {
     std::map<int, int> vertices_of_index;
-    int inside = 0;
-    for (int v = 0; v < result.topology.vertex_count; ++v) {
-        const int index = result.field.index[v];
-        if (index == 0) continue;
-        if (result.topology.is_boundary_vertex(v)) continue;
-        ++vertices_of_index[index];
-        ++inside;
+    std::map<int, int> corners_of_index;
+    int singularities = 0;
+    for (const Singularity& singularity : list_singularities(result.topology, result.field)) {
+        ++(singularity.boundary ? corners_of_index : vertices_of_index)[singularity.index];
+        singularities += singularity.boundary ? 0 : 1;
     }
-    Json by_index = Json::object();
-    for (const auto& [index, count] : vertices_of_index)
-        by_index[fmt::format("{:+}", index)] = count;
+    const auto by_index = [](const std::map<int, int>& counts) {
+        Json object = Json::object();
+        for (const auto& [index, count] : counts) object[fmt::format("{:+}", index)] = count;
+        return object;
+    };
     return {{"energy", result.field.energy},
-            {"singularities", inside},
-            {"singularities_by_index_in_quarters", by_index},
+            {"singularities", singularities},
+            {"singularities_by_index_in_quarters", by_index(vertices_of_index)},
+            {"boundary_corners_by_index_in_quarters", by_index(corners_of_index)},
             {"index_sum_in_quarters", result.field.index.sum()}};
 }
 

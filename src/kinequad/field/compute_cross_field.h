@@ -20,7 +20,7 @@ struct CrossFieldOptions {
     CrossFieldMethod method = CrossFieldMethod::convex;
     /// What one singularity may cost in energy, in squared radians, weighed when singularities are
     /// moved, made and cancelled (`convex` only).
-    double singularity_cost = 0.2;
+    double singularity_cost = 0.08;
     /// What each mesh edge that joins two singularities costs beside, in squared radians:
     /// integer-grid maps have no room there (`convex` only).
     double adjacency_cost = 0.5;

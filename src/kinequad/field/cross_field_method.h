@@ -9,8 +9,6 @@ enum class CrossFieldMethod {
 };
 
 /// The influence of the animation that was measured best with each method; 0 always means none.
-constexpr double default_alpha(CrossFieldMethod method) {
-    return method == CrossFieldMethod::paper ? 0.5 : 0.4;
-}
+constexpr double default_alpha(CrossFieldMethod) { return 0.5; }
 
 }  // namespace kinequad

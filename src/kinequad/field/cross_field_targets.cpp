@@ -28,6 +28,14 @@ void check(const CrossFieldTargetOptions& options, const DeformationTensors& ten
     static_cast<void>(topology);
 }
 
+/// Mean stretch over the frames, its modulus bounded by 1: doubling a small stretch doubles what it asks for,
+/// doubling a large one hardly does.
+Complex bounded_stretch(const DeformationTensors& tensors, Eigen::Index t) {
+    if (tensors.frame_count == 0) return 0;
+    const Complex mean = tensors.stretch_direction_sum[t] / static_cast<double>(tensors.frame_count);
+    return mean / (1 + std::abs(mean));
+}
+
 }  // namespace
 
 CrossFieldTargets compute_cross_field_targets(const Topology& topology,
@@ -60,7 +68,7 @@ CrossFieldTargets compute_cross_field_targets(const Topology& topology,
     const double scale = 4 / (options.edge_length * options.edge_length);
     const bool has_curvature = tensors.curvature.size() == count;
     for (Eigen::Index t = 0; t < count; ++t) {
-        Complex direction = options.alpha > 0 ? options.alpha * tensors.shear[t] : Complex(0);
+        Complex direction = options.alpha * bounded_stretch(tensors, t);
         if (has_curvature) direction += options.curvature_weight * tensors.curvature[t];
         set(t, direction, scale * areas[t] * std::abs(direction));
     }

@@ -31,7 +31,7 @@ struct Options {
     /// With 0 the run sees a single pose, the reference frame.
     std::optional<double> alpha;
     double curvature = 0.1;  ///< influence of the curvature on the cross field (`convex` only)
-    double singularity_cost = 0.2;  ///< energy that a singularity may cost, rad^2 (`convex` only)
+    double singularity_cost = 0.08;  ///< energy that a singularity may cost, rad^2 (`convex` only)
     /// Empty: `mean`, and `reference` where `alpha` is 0.
     std::optional<MetricChoice> metric;
     int reference = 0;     ///< frame that is the reference, or `rest_shape`

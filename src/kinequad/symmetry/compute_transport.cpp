@@ -1,0 +1,111 @@
+#include "kinequad/symmetry/compute_transport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "kinequad/core/parallel.h"
+#include "kinequad/symmetry/unfold_patch.h"
+
+namespace kinequad {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr int patch_limit = 160;
+
+/// Vertices of a patch with their planar positions, each once.
+struct PatchVertices {
+    std::vector<int> vertex;
+    std::vector<Vector2> position;
+};
+
+PatchVertices vertices_around(const Topology& topology, const IntrinsicMetric& metric, int t) {
+    std::vector<int> beside;
+    for (int k = 0; k < 3; ++k) {
+        const int g = topology.twin[at(3 * t + k)];
+        if (g >= 0) beside.push_back(g / 3);
+    }
+    const UnfoldedPatch patch = unfold_patch(topology, metric, t, beside, 4);
+    PatchVertices result;
+    for (std::size_t i = 0; i < patch.triangle.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const int v = topology.origin[at(3 * patch.triangle[i] + k)];
+            if (std::find(result.vertex.begin(), result.vertex.end(), v) != result.vertex.end()) {
+                continue;
+            }
+            result.vertex.push_back(v);
+            result.position.emplace_back(patch.corners[i].col(k));
+        }
+    }
+    return result;
+}
+
+struct LocalTransport {
+    double angle = 0;
+    bool is_known = false;
+    bool is_reversed = false;
+};
+
+LocalTransport transport_at(const Topology& topology, const IntrinsicMetric& metric,
+                            const std::vector<SurfacePoint>& vertex_image, int t,
+                            int image_triangle) {
+    const PatchVertices here = vertices_around(topology, metric, t);
+    std::vector<int> wanted;
+    for (const int v : here.vertex) wanted.push_back(vertex_image[at(v)].triangle);
+    const UnfoldedPatch there =
+        unfold_patch(topology, metric, image_triangle, wanted, patch_limit);
+    std::vector<Vector2> from;
+    std::vector<Vector2> to;
+    for (std::size_t i = 0; i < here.vertex.size(); ++i) {
+        Vector2 position;
+        if (!there.find(vertex_image[at(here.vertex[i])], position)) continue;
+        from.push_back(here.position[i]);
+        to.push_back(position);
+    }
+    LocalTransport result;
+    if (from.size() < 3) return result;
+    const double share = 1 / static_cast<double>(from.size());
+    const Vector2 from_mean = share * std::accumulate(from.begin(), from.end(), Vector2(0, 0));
+    const Vector2 to_mean = share * std::accumulate(to.begin(), to.end(), Vector2(0, 0));
+    // The nearest reflection in the sense of least squares over the vertices (Procrustes).
+    double c = 0;
+    double s = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        const Vector2 x = from[i] - from_mean;
+        const Vector2 y = to[i] - to_mean;
+        c += y[0] * x[0] - y[1] * x[1];
+        s += y[0] * x[1] + y[1] * x[0];
+    }
+    if (c == 0 && s == 0) return result;
+    result.angle = std::atan2(s, c);
+    result.is_known = true;
+    // The triangle's own corners come first.
+    const Vector2 b = to[1] - to[0];
+    const Vector2 d = to[2] - to[0];
+    result.is_reversed = from.size() == here.vertex.size() && b[0] * d[1] - b[1] * d[0] > 0;
+    return result;
+}
+
+}  // namespace
+
+Transport compute_transport(const Topology& topology, const IntrinsicMetric& metric,
+                            const std::vector<SurfacePoint>& vertex_image,
+                            const std::vector<SurfacePoint>& centre_image, const Context& context) {
+    Transport transport;
+    transport.angle = Eigen::VectorXd::Zero(topology.triangle_count);
+    std::vector<LocalTransport> local(at(topology.triangle_count));
+    parallel_for(local.size(), 256, context, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+            local[t] = transport_at(topology, metric, vertex_image, static_cast<int>(t),
+                                    centre_image[t].triangle);
+        }
+    });
+    for (std::size_t t = 0; t < local.size(); ++t) {
+        transport.angle[static_cast<Eigen::Index>(t)] = local[t].angle;
+        if (local[t].is_reversed) ++transport.reversed_triangles;
+    }
+    return transport;
+}
+
+}  // namespace kinequad

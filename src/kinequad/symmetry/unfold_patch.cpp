@@ -1,0 +1,67 @@
+#include "kinequad/symmetry/unfold_patch.h"
+
+#include <algorithm>
+
+namespace kinequad {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Corners of the triangle of half-edge `g` when its half-edge lies on the segment from `from` to
+/// `to`, left of it.
+Eigen::Matrix<double, 2, 3> lay_out_beside(const Topology& topology, const IntrinsicMetric& metric,
+                                           int g, const Vector2& from, const Vector2& to) {
+    const int t = g / 3;
+    const int k = g % 3;
+    const std::array<double, 3> sides = side_lengths(topology, metric, t);
+    const auto flat =
+        lay_out_triangle({sides[at(k)], sides[at((k + 1) % 3)], sides[at((k + 2) % 3)]});
+    const double length = (to - from).norm();
+    const Vector2 x = length > 0 ? Vector2((to - from) / length) : Vector2::UnitX();
+    const Vector2 y(-x[1], x[0]);
+    Eigen::Matrix<double, 2, 3> corners;
+    corners.col(k) = from;
+    corners.col((k + 1) % 3) = to;
+    corners.col((k + 2) % 3) = from + flat(0, 2) * x + flat(1, 2) * y;
+    return corners;
+}
+
+}  // namespace
+
+bool UnfoldedPatch::find(const SurfacePoint& point, Vector2& position) const {
+    const auto found = std::find(triangle.begin(), triangle.end(), point.triangle);
+    if (found == triangle.end()) return false;
+    position = corners[static_cast<std::size_t>(found - triangle.begin())] * point.barycentric;
+    return true;
+}
+
+UnfoldedPatch unfold_patch(const Topology& topology, const IntrinsicMetric& metric, int middle,
+                           const std::vector<int>& wanted, int limit) {
+    UnfoldedPatch patch;
+    patch.triangle.push_back(middle);
+    patch.corners.push_back(lay_out_triangle(side_lengths(topology, metric, middle)));
+    const auto is_in = [&](int t) {
+        return std::find(patch.triangle.begin(), patch.triangle.end(), t) != patch.triangle.end();
+    };
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const bool is_first = std::find(wanted.begin(), wanted.begin() + static_cast<long>(i),
+                                        wanted[i]) == wanted.begin() + static_cast<long>(i);
+        if (is_first && wanted[i] != middle) ++missing;
+    }
+    for (std::size_t i = 0; i < patch.triangle.size() && missing > 0; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const int g = topology.twin[at(3 * patch.triangle[i] + k)];
+            if (g < 0 || is_in(g / 3)) continue;
+            if (static_cast<int>(patch.triangle.size()) >= limit) return patch;
+            const Vector2 from = patch.corners[i].col((k + 1) % 3);
+            const Vector2 to = patch.corners[i].col(k);
+            patch.corners.push_back(lay_out_beside(topology, metric, g, from, to));
+            patch.triangle.push_back(g / 3);
+            if (std::find(wanted.begin(), wanted.end(), g / 3) != wanted.end()) --missing;
+        }
+    }
+    return patch;
+}
+
+}  // namespace kinequad

@@ -71,4 +71,10 @@ int run_program(int argc, char** argv) {
 }  // namespace
 }  // namespace kinequad::app
 
-int main(int argc, char** argv) { return kinequad::app::run_program(argc, argv); }
+int main(int argc, char** argv) {
+    try {
+        return kinequad::app::run_program(argc, argv);
+    } catch (...) {  // nothing could be written to stderr
+        return static_cast<int>(kinequad::ExitCode::internal_failure);
+    }
+}

@@ -301,9 +301,7 @@ bool ConeTriangulation::take_out(int v, std::vector<int>& outgoing) {
                                   add_rows(turn_rows(rows_[at(in)], to_keep[1]), rows_[at(keep)])});
             }
             // Sides glued to one another keep their glue in the merged numbering.
-            for (std::size_t i = 0; i < 3; ++i) {
-                const int slot = 3 * t + static_cast<int>(i);
-                Side& s = merged[i];
+            for (Side& s : merged) {
                 for (std::size_t j = 0; j < fan.size(); ++j) {
                     if (s.twin == outer[j]) {
                         s.twin = 3 * t + static_cast<int>(j);
@@ -311,7 +309,6 @@ bool ConeTriangulation::take_out(int v, std::vector<int>& outgoing) {
                         break;
                     }
                 }
-                static_cast<void>(slot);
             }
             for (std::size_t i = 1; i < fan.size(); ++i) is_dead_[at(fan[i] / 3)] = 1;
             for (std::size_t i = 0; i < 3; ++i) {
@@ -331,9 +328,16 @@ bool ConeTriangulation::take_out(int v, std::vector<int>& outgoing) {
             outgoing[at(v)] = -1;
             return true;
         }
-        // Flip the edge at v that leaves the fattest triangles behind.
+        // Flip the edge at v that leaves the fattest triangles behind. Just before v goes, it may
+        // lie on both diagonals of its neighbours: then a triangle without area, which goes with
+        // it.
+        const bool is_last =
+            fan.size() == wanted + 1 && std::none_of(fan.begin(), fan.end(), [&](int h) {
+                return origin_[at(Topology::next(h))] == v ||
+                       origin_[at(Topology::previous(h))] == v;
+            });
         int best = -1;
-        double best_area = 1e-14;
+        double best_area = is_last ? -1e-10 : 1e-14;
         for (const int h : fan) {
             const int g = twin_[at(h)];
             if (g < 0 || g / 3 == h / 3) continue;
@@ -451,9 +455,10 @@ bool ConeTriangulation::move(const Eigen::VectorXd& step) {
         if (std::abs(c2) < 1e-14 * std::max(c0, std::abs(c1))) {
             return c1 < 0 ? -c0 / c1 : std::numeric_limits<double>::infinity();
         }
+        // Two roots that meet are a collapse too: nodes that pass through one another.
         const double discriminant = c1 * c1 - 4 * c0 * c2;
-        if (discriminant < 0) return std::numeric_limits<double>::infinity();
-        const double q = -0.5 * (c1 + std::copysign(std::sqrt(discriminant), c1));
+        if (discriminant < -1e-12 * c1 * c1) return std::numeric_limits<double>::infinity();
+        const double q = -0.5 * (c1 + std::copysign(std::sqrt(std::max(0.0, discriminant)), c1));
         double best = std::numeric_limits<double>::infinity();
         for (const double root : {q / c2, q != 0 ? c0 / q : -1.0}) {
             if (root >= 0) best = std::min(best, root);

@@ -6,6 +6,15 @@
 #include <numeric>
 
 namespace kinequad {
+namespace {
+
+/// Whether `sum`, of which `part` is one of two terms, is zero but for rounding errors.
+/// Coefficients are fractions of small whole numbers, so that whatever is left of a sum is not much
+/// smaller than its terms.
+bool cancels(double part, double sum) { return std::abs(sum) <= 1e-9 * std::abs(part); }
+bool cancels(long, long sum) { return sum == 0; }
+
+}  // namespace
 
 template <class Number>
 LinearForm<Number> add_scaled(const LinearForm<Number>& a, Number factor,
@@ -22,8 +31,7 @@ LinearForm<Number> add_scaled(const LinearForm<Number>& a, Number factor,
             ++j;
         } else {
             const Number value = a[i].second + factor * b[j].second;
-            // Real coefficients are products of powers of two here, so that cancellation is exact.
-            if (value != Number{0}) sum.emplace_back(a[i].first, value);
+            if (!cancels(a[i].second, value)) sum.emplace_back(a[i].first, value);
             ++i;
             ++j;
         }
@@ -157,10 +165,10 @@ Elimination<double> eliminate_reals(int variable_count, const std::vector<Linear
         if (row.empty()) continue;
         std::size_t pivot = 0;
         for (std::size_t i = 1; i < row.size(); ++i) {
-            if (priority[static_cast<std::size_t>(row[i].first)] <
-                priority[static_cast<std::size_t>(row[pivot].first)]) {
-                pivot = i;
-            }
+            const int here = priority[static_cast<std::size_t>(row[i].first)];
+            const int best = priority[static_cast<std::size_t>(row[pivot].first)];
+            const bool is_larger = std::abs(row[i].second) > std::abs(row[pivot].second);
+            if (here < best || (here == best && is_larger)) pivot = i;
         }
         substitution.define(row[pivot].first, solve_for(row, pivot));
     }

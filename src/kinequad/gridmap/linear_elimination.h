@@ -24,7 +24,8 @@ struct Elimination {
 };
 
 /// Solves `rows` (each a form that vanishes) over the reals. In every row the variable with the
-/// lowest `priority` is expressed by the others; rows are used in their order.
+/// lowest `priority` (of those, the one with the largest coefficient) is expressed by the others;
+/// rows are used in their order.
 Elimination<double> eliminate_reals(int variable_count, const std::vector<LinearForm<double>>& rows,
                                     const std::vector<int>& priority);
 

@@ -16,7 +16,9 @@ std::array<CornerShape, 4> corner_shapes(const QuadCorners& p) {
     std::array<double, 4> inverse_length{};
     for (std::size_t k = 0; k < 4; ++k) {
         edge[k] = p[(k + 1) % 4] - p[k];
-        inverse_length[k] = 1 / std::max(edge[k].norm(), 1e-300);
+        // A side without length makes both corners at it count as folded.
+        const double length = edge[k].norm();
+        inverse_length[k] = length > 0 ? 1 / length : 0;
     }
     std::array<CornerShape, 4> shapes;
     for (std::size_t k = 0; k < 4; ++k) {

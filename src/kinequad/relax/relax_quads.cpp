@@ -12,7 +12,9 @@ namespace {
 /// Scaled Jacobians below these are mended, in this order: the worst first, then what is close to
 /// it.
 constexpr double safe_jacobian = 0.15;
-constexpr int most_unfolding_passes = 10;
+constexpr double least_jacobian = 0.05;
+constexpr int releasing_pass = 8;
+constexpr int most_unfolding_passes = 16;
 
 std::vector<SampledFrame> sample_frames(const FrameSource& source, const RelaxOptions& options) {
     const int frames = source.frame_count();
@@ -48,7 +50,9 @@ QuadMesh relax_quads(const QuadMesh& quads, const FrameSource& source, const Top
     }
     int folded = 0;
     for (int pass = 0; pass < most_unfolding_passes; ++pass) {
-        folded = sliding.unfold_pass(safe_jacobian, context);
+        // Where the nearest vertices do not do it, more of them move, and in the end those on extremities.
+        if (pass == releasing_pass) sliding.release();
+        folded = sliding.unfold_pass(pass < releasing_pass ? safe_jacobian : least_jacobian, pass / 3, context);
         if (folded == 0 && pass > 0) break;
     }
     if (folded > 0) {

@@ -10,7 +10,8 @@ namespace kinequad {
 struct RelaxOptions {
     /// Frames whose quads are looked at: evenly chosen, the reference among them. At least 1.
     int sampled_frames = 12;
-    /// Frame in which no quad may stay folded; counts as much as all others together.
+    /// Frame in which no quad may stay folded; counts about a quarter as much as all others
+    /// together.
     int reference_frame = 0;
     /// True where the reference is the rest shape, which is no frame.
     bool reference_is_rest_shape = false;
@@ -24,7 +25,7 @@ struct RelaxOptions {
 /// Slides the vertices of a quad mesh over the surface so that quads come closer to squares in all
 /// sampled frames at once, and unfolds folded ones. Connectivity and boundary vertices stay. Every
 /// move lowers the sum over the sampled frames and the quads around the vertex of squared corner
-/// cosines plus a barrier against folding, so that no quad mesh gets worse by it.
+/// cosines plus a barrier against folding, but for those that cover an extremity or unfold a quad.
 /// docs/relaxation.md Throws what `source` throws, and `Cancelled`.
 QuadMesh relax_quads(const QuadMesh& quads, const FrameSource& source, const Topology& topology,
                      const IntrinsicMetric& metric, const RelaxOptions& options,

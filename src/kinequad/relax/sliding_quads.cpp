@@ -78,6 +78,7 @@ void SlidingQuads::pin_boundary() {
             }
         }
     }
+    is_on_boundary_ = is_pinned_;
 }
 
 SlidingQuads::Range SlidingQuads::corners_of(int v) const {
@@ -153,6 +154,8 @@ Vector2 SlidingQuads::wanted_move(int v) const {
     return matrix.inverse() * right;
 }
 
+void SlidingQuads::release() { is_pinned_ = is_on_boundary_; }
+
 bool SlidingQuads::improve(int v) {
     const Vector2 move = wanted_move(v);
     const SurfacePoint before = quads_.vertex[at(v)];
@@ -185,9 +188,9 @@ void SlidingQuads::search_around(int v, const std::function<double()>& cost) {
     const SurfacePoint before = quads_.vertex[at(v)];
     SurfacePoint best = before;
     double least = cost();
-    for (const double length : {0.5, 0.25, 0.12, 0.06, 0.03}) {
+    for (const double length : {0.9, 0.5, 0.25, 0.12, 0.06, 0.03}) {
         for (int i = 0; i < directions; ++i) {
-            const double angle = 2 * std::numbers::pi * i / directions;
+            const double angle = 2 * std::numbers::pi * (i + 5 * length) / directions;
             const Vector2 step = length * size * Vector2(std::cos(angle), std::sin(angle));
             place(v, trace_geodesic(topology_, metric_, before, step));
             const double value = cost();
@@ -200,23 +203,35 @@ void SlidingQuads::search_around(int v, const std::function<double()>& cost) {
     place(v, best);
 }
 
-int SlidingQuads::unfold_pass(double safe_jacobian, const Context& context) {
+int SlidingQuads::unfold_pass(double safe_jacobian, int reach, const Context& context) {
     const FoldBarrier barrier{safe_jacobian, 100};
-    const auto open_up = [&](int v) {
-        if (is_pinned_[at(v)] == 0) search_around(v, [&] { return cost_around(v, barrier); });
+    // The reference frame decides; the others only choose among what unfolds it alike.
+    const auto cost = [&](int v) {
+        double sum = 0.1 * cost_around(v, relaxing_barrier);
+        for (const int c : corners_of(v)) {
+            sum += static_cast<double>(frames_.size()) * quad_cost(corners_in(frames_[0], c / 4), barrier);
+        }
+        return sum;
     };
     int folded = 0;
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
         if (least_scaled_jacobian(corners_in(frames_[0], q)) >= safe_jacobian) continue;
         context.check_cancelled();
-        for (int k = 0; k < 4; ++k) {
-            const int v = quads_.Q(q, k);
-            open_up(v);
-            for (const int c : corners_of(v)) {
-                for (const int w : {neighbour(c, 1), neighbour(c, 3)}) {
-                    if (least_jacobian_around(w) < safe_jacobian) open_up(w);
+        std::vector<int> around;
+        for (int k = 0; k < 4; ++k) around.push_back(quads_.Q(q, k));
+        for (int ring = 0; ring < reach; ++ring) {
+            std::vector<int> wider = around;
+            for (const int v : around) {
+                for (const int c : corners_of(v)) {
+                    wider.insert(wider.end(), {neighbour(c, 1), neighbour(c, 2), neighbour(c, 3)});
                 }
             }
+            std::sort(wider.begin(), wider.end());
+            wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
+            around = std::move(wider);
+        }
+        for (const int v : around) {
+            if (is_pinned_[at(v)] == 0) search_around(v, [&] { return cost(v); });
         }
         folded += least_scaled_jacobian(corners_in(frames_[0], q)) <= 0 ? 1 : 0;
     }
@@ -262,15 +277,18 @@ int SlidingQuads::hug_surface(double limit, const ClosestPoints& surface, const 
     return far;
 }
 
-/// Puts vertex `v` on `goal` and lets its neighbours give way; takes all back where a quad gets too slanted.
+/// Puts vertex `v` on `goal` and lets its neighbours give way; takes all back where a quad gets too
+/// slanted.
 bool SlidingQuads::move_onto(int v, const SurfacePoint& goal) {
     const FoldBarrier barrier{0.25, 100};
     std::vector<std::pair<int, SurfacePoint>> before = {{v, quads_.vertex[at(v)]}};
     for (const int c : corners_of(v)) {
-        for (const int k : {1, 2}) before.emplace_back(neighbour(c, k), quads_.vertex[at(neighbour(c, k))]);
+        for (const int k : {1, 2})
+            before.emplace_back(neighbour(c, k), quads_.vertex[at(neighbour(c, k))]);
     }
     double least_before = 1;
-    for (const auto& [w, point] : before) least_before = std::min(least_before, least_jacobian_around(w));
+    for (const auto& [w, point] : before)
+        least_before = std::min(least_before, least_jacobian_around(w));
     const double enough = std::min(least_before, least_covering_jacobian);
     const auto least_around = [&] {
         double least = 1;

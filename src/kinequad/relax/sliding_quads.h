@@ -30,19 +30,23 @@ public:
     /// lowers their cost over all frames. Returns the number of moves.
     int relax_pass(const Context& context);
 
-    /// Tries small moves of the vertices of quads whose scaled Jacobian in the reference frame is
-    /// below `safe_jacobian`, and keeps what opens them. Returns the number of quads still folded
-    /// there.
-    int unfold_pass(double safe_jacobian, const Context& context);
+    /// Tries moves of the vertices up to `reach` quads around every quad whose scaled Jacobian in the
+    /// reference frame is below `safe_jacobian`, and keeps what opens it. Returns the number of quads still
+    /// folded there.
+    int unfold_pass(double safe_jacobian, int reach, const Context& context);
+
+    /// Sets free what `cover_extremities` has put in place.
+    void release();
 
     /// Puts a quad vertex onto every vertex of the input that is farther than `limit` (units of the
     /// input) from the quads in the reference frame and is no corner of what has been put in place
     /// before. Returns the number of vertices put in place.
     int cover_extremities(double limit, const Context& context);
 
-    /// Tries small moves of the vertices of quads whose middle or edges leave the surface by more than `limit`
-    /// (units of the input) in the reference frame, as where they bridge a crease, and keeps what brings them
-    /// closer. `surface` is the input there. Returns the number of quads that stay farther away.
+    /// Tries small moves of the vertices of quads whose middle or edges leave the surface by more
+    /// than `limit` (units of the input) in the reference frame, as where they bridge a crease, and
+    /// keeps what brings them closer. `surface` is the input there. Returns the number of quads
+    /// that stay farther away.
     int hug_surface(double limit, const ClosestPoints& surface, const Context& context);
 
     /// Positions (n x 3) of the input in the reference frame.
@@ -89,6 +93,7 @@ private:
         corner_start_;  ///< corners of vertex v: corner_[corner_start_[v] .. corner_start_[v+1]]
     std::vector<int> corner_;  ///< corner c of quad q as 4q + c
     std::vector<char> is_pinned_;
+    std::vector<char> is_on_boundary_;
 };
 
 }  // namespace kinequad

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "kinequad/core/error.h"
 
@@ -369,15 +370,37 @@ bool ConeTriangulation::take_out(int v, std::vector<int>& outgoing) {
 }
 
 void ConeTriangulation::compact() {
-    alive_.clear();
-    for (int t = 0; t < static_cast<int>(is_dead_.size()); ++t) {
-        if (!is_dead_[at(t)]) alive_.push_back(t);
-    }
-    for (const int t : alive_) {
-        for (int h = 3 * t; h < 3 * t + 3; ++h) {
-            if (rows_[at(h)].cols() == 0) rows_[at(h)] = Rows::Zero(2, integers_.size());
+    std::vector<int> number(is_dead_.size(), -1);
+    int count = 0;
+    for (std::size_t t = 0; t < is_dead_.size(); ++t) {
+        if (is_dead_[t]) continue;
+        const int kept = count++;
+        number[t] = kept;
+        for (int k = 0; k < 3; ++k) {
+            const std::size_t from = 3 * t + at(k);
+            const std::size_t to = at(3 * kept + k);
+            origin_[to] = origin_[from];
+            twin_[to] = twin_[from];
+            rotation_[to] = rotation_[from];
+            displacement_[to] = displacement_[from];
+            if (to != from) rows_[to] = std::move(rows_[from]);
+            if (rows_[to].cols() == 0) rows_[to] = Rows::Zero(2, integers_.size());
         }
     }
+    const std::size_t corners = at(3 * count);
+    origin_.resize(corners);
+    twin_.resize(corners);
+    rotation_.resize(corners);
+    displacement_.resize(corners);
+    rows_.resize(corners);
+    // Moves copy what is left: let go of the room that the mesh took.
+    rows_.shrink_to_fit();
+    for (int& h : twin_) {
+        if (h >= 0) h = 3 * number[at(h / 3)] + h % 3;
+    }
+    is_dead_.assign(at(count), 0);
+    alive_.resize(at(count));
+    std::iota(alive_.begin(), alive_.end(), 0);
 }
 
 double ConeTriangulation::determinant(int i) const {
@@ -467,7 +490,6 @@ bool ConeTriangulation::move(const Eigen::VectorXd& step) {
     };
     double left = 1;
     const int most_flips = 20 * triangle_count() + 20;
-    std::vector<double> collapse(is_dead_.size(), std::numeric_limits<double>::infinity());
     while (true) {
         int first = -1;
         double soonest = std::numeric_limits<double>::infinity();

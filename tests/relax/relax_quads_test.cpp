@@ -1,0 +1,268 @@
+#include "kinequad/relax/relax_quads.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "kinequad/extract/verify_quad_mesh.h"
+#include "kinequad/io/memory_sequence.h"
+#include "kinequad/mesh/closest_points.h"
+#include "kinequad/relax/sliding_quads.h"
+#include "support/shapes.h"
+
+namespace kinequad {
+namespace {
+
+/// The unit square, lifted to `z = height(x, y)`.
+TriangleMesh landscape(int n, const std::function<double(double, double)>& height) {
+    TriangleMesh mesh = test::square(n);
+    for (Eigen::Index v = 0; v < mesh.V.rows(); ++v) {
+        mesh.V(v, 2) = height(mesh.V(v, 0), mesh.V(v, 1));
+    }
+    return mesh;
+}
+
+double flat(double, double) { return 0; }
+double hill(double x, double y) { return 0.4 * x * (1 - x) * y * (2 - y); }
+
+/// `k` x `k` quads over the unit square, inner vertices moved by up to `jitter` of a quad.
+struct Grid {
+    TriangleMesh mesh;
+    Topology topology;
+    IntrinsicMetric metric;
+    QuadMesh quads;
+
+    Grid(TriangleMesh shape, int k, double jitter, unsigned seed = 1)
+        : mesh(std::move(shape)),
+          topology(build_topology(mesh.F, static_cast<int>(mesh.V.rows()))),
+          metric(metric_of(topology, mesh.V)) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> away(-jitter / k, jitter / k);
+        for (int i = 0; i <= k; ++i) {
+            for (int j = 0; j <= k; ++j) {
+                const bool is_inner = i > 0 && i < k && j > 0 && j < k;
+                const double x = double(j) / k + (is_inner ? away(random) : 0);
+                const double y = double(i) / k + (is_inner ? away(random) : 0);
+                quads.vertex.push_back(above(x, y));
+            }
+        }
+        quads.Q.resize(k * k, 4);
+        for (int i = 0; i < k; ++i) {
+            for (int j = 0; j < k; ++j) {
+                const int v = i * (k + 1) + j;
+                quads.Q.row(i * k + j) << v, v + 1, v + k + 2, v + k + 1;
+            }
+        }
+    }
+
+    /// The point of the surface over (x, y).
+    SurfacePoint above(double x, double y) const {
+        Positions plan = mesh.V;
+        plan.col(2).setZero();
+        SurfacePoint point = ClosestPoints(plan, mesh.F).find(Vector3(x, y, 0)).point;
+        point.barycentric = point.barycentric.cwiseMax(0);
+        point.barycentric /= point.barycentric.sum();
+        return point;
+    }
+
+    QuadCorners corners(const QuadMesh& of, const Positions& frame, Eigen::Index q) const {
+        QuadCorners p;
+        for (int k = 0; k < 4; ++k) {
+            p[static_cast<std::size_t>(k)] =
+                position_of(of.vertex[static_cast<std::size_t>(of.Q(q, k))], frame, mesh.F);
+        }
+        return p;
+    }
+
+    double cost(const QuadMesh& of, const Positions& frame) const {
+        double sum = 0;
+        for (Eigen::Index q = 0; q < of.Q.rows(); ++q) {
+            sum += quad_cost(corners(of, frame, q), FoldBarrier{});
+        }
+        return sum;
+    }
+
+    double least_jacobian(const QuadMesh& of, const Positions& frame) const {
+        double least = 1;
+        for (Eigen::Index q = 0; q < of.Q.rows(); ++q) {
+            least = std::min(least, least_scaled_jacobian(corners(of, frame, q)));
+        }
+        return least;
+    }
+
+    SlidingQuads sliding(std::vector<SampledFrame> frames) const {
+        return SlidingQuads(quads, topology, metric, mesh.F, std::move(frames));
+    }
+
+    /// Connectivity and boundary are as before, and all vertices on the surface.
+    void expect_kept(const QuadMesh& after) const {
+        EXPECT_EQ(after.Q, quads.Q);
+        EXPECT_TRUE(verify_quad_mesh(after, topology).valid());
+        const int side = static_cast<int>(std::lround(std::sqrt(double(quads.vertex.size()))));
+        for (int v = 0; v < static_cast<int>(quads.vertex.size()); ++v) {
+            const int i = v / side;
+            const int j = v % side;
+            if (i > 0 && j > 0 && i + 1 < side && j + 1 < side) continue;
+            const auto index = static_cast<std::size_t>(v);
+            EXPECT_EQ(after.vertex[index].triangle, quads.vertex[index].triangle);
+            EXPECT_EQ(after.vertex[index].barycentric, quads.vertex[index].barycentric);
+        }
+    }
+};
+
+Positions sheared(const Positions& V, double by) {
+    Positions result = V;
+    result.col(0) += by * V.col(1);
+    return result;
+}
+
+TEST(RelaxPass, LeavesAGridOfSquaresAlone) {
+    const Grid grid(landscape(12, flat), 6, 0);
+    SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+    EXPECT_EQ(sliding.relax_pass({}), 0);
+    EXPECT_NEAR(sliding.mean_edge_length(), 1.0 / 6, 1e-12);
+}
+
+TEST(RelaxPass, NeverRaisesTheCostOverAllFrames) {
+    for (const unsigned seed : {1U, 2U, 3U}) {
+        const Grid grid(landscape(14, hill), 7, 0.45, seed);
+        const Positions other = sheared(grid.mesh.V, 0.7);
+        SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}, {other, 2.5}});
+        double before = grid.cost(grid.quads, grid.mesh.V) + 2.5 * grid.cost(grid.quads, other);
+        for (int pass = 0; pass < 8; ++pass) {
+            const int moves = sliding.relax_pass({});
+            const double after =
+                grid.cost(sliding.quads(), grid.mesh.V) + 2.5 * grid.cost(sliding.quads(), other);
+            EXPECT_LE(after, before + 1e-12);
+            if (moves > 0) {
+                EXPECT_LT(after, before);
+            }
+            before = after;
+            grid.expect_kept(sliding.quads());
+        }
+    }
+}
+
+TEST(RelaxPass, FindsTheSquaresOfAFlatGrid) {
+    const Grid grid(landscape(14, flat), 7, 0.3);
+    SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+    const double before = grid.cost(grid.quads, grid.mesh.V);
+    for (int pass = 0; pass < 60; ++pass) sliding.relax_pass({});
+    EXPECT_LT(grid.cost(sliding.quads(), grid.mesh.V), 0.05 * before);
+}
+
+TEST(RelaxPass, WeighsTheFrames) {
+    // What is square in one frame is not in the sheared one: the heavier of them gets its way.
+    const Grid grid(landscape(14, flat), 7, 0.2);
+    const Positions other = sheared(grid.mesh.V, 0.5);
+    const auto costs = [&](double weight) {
+        SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}, {other, weight}});
+        for (int pass = 0; pass < 20; ++pass) sliding.relax_pass({});
+        return std::pair(grid.cost(sliding.quads(), grid.mesh.V),
+                         grid.cost(sliding.quads(), other));
+    };
+    const auto [light_first, light_other] = costs(0.01);
+    const auto [heavy_first, heavy_other] = costs(100);
+    EXPECT_LT(light_first, heavy_first);
+    EXPECT_GT(light_other, heavy_other);
+}
+
+TEST(UnfoldPass, OpensFoldedQuads) {
+    Grid grid(landscape(16, hill), 8, 0.1);
+    // One vertex is pulled over its neighbour, as happens where a map is stretched in space.
+    grid.quads.vertex[static_cast<std::size_t>(4 * 9 + 4)] = grid.above(0.66, 0.55);
+    ASSERT_LE(grid.least_jacobian(grid.quads, grid.mesh.V), 0);
+    SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+    int folded = 1;
+    for (int pass = 0; pass < 5 && folded > 0; ++pass) folded = sliding.unfold_pass(0.15, {});
+    EXPECT_EQ(folded, 0);
+    EXPECT_GT(grid.least_jacobian(sliding.quads(), grid.mesh.V), 0);
+    grid.expect_kept(sliding.quads());
+}
+
+TEST(UnfoldPass, LeavesGoodQuadsAlone) {
+    const Grid grid(landscape(12, hill), 6, 0.1);
+    SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+    ASSERT_GT(grid.least_jacobian(grid.quads, grid.mesh.V), 0.15);
+    EXPECT_EQ(sliding.unfold_pass(0.15, {}), 0);
+    for (std::size_t v = 0; v < grid.quads.vertex.size(); ++v) {
+        EXPECT_EQ(sliding.quads().vertex[v].triangle, grid.quads.vertex[v].triangle);
+    }
+}
+
+/// A spike on the vertex nearest to (0.55, 0.47), which no vertex of a 6 x 6 grid is near.
+Grid spiked(int* tip) {
+    TriangleMesh mesh = landscape(20, flat);
+    (mesh.V.rowwise() - Eigen::RowVector3d(0.55, 0.45, 0)).rowwise().squaredNorm().minCoeff(tip);
+    mesh.V(*tip, 2) = 0.12;
+    return Grid(std::move(mesh), 6, 0);
+}
+
+TEST(CoverExtremities, PutsAVertexOntoASpikeForGood) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+    EXPECT_EQ(sliding.cover_extremities(0.2, {}), 0) << "the spike is not as high as that";
+    EXPECT_EQ(sliding.cover_extremities(0.1, {}), 1);
+    const auto nearest = [&](const QuadMesh& quads) {
+        double least = 1;
+        for (const SurfacePoint& point : quads.vertex) {
+            least = std::min(least, (position_of(point, grid.mesh.V, grid.mesh.F) -
+                                     grid.mesh.V.row(tip).transpose())
+                                        .norm());
+        }
+        return least;
+    };
+    EXPECT_LT(nearest(sliding.quads()), 1e-12);
+    EXPECT_EQ(sliding.cover_extremities(0.1, {}), 0);
+    for (int pass = 0; pass < 5; ++pass) sliding.relax_pass({});
+    EXPECT_LT(nearest(sliding.quads()), 1e-12);
+    EXPECT_GT(grid.least_jacobian(sliding.quads(), grid.mesh.V), 0);
+    grid.expect_kept(sliding.quads());
+}
+
+TEST(RelaxQuads, ImprovesAllFramesTogetherAndKeepsTheMesh) {
+    const Grid grid(landscape(14, hill), 7, 0.45);
+    std::vector<Positions> frames;
+    for (int f = 0; f < 5; ++f) frames.push_back(sheared(grid.mesh.V, 0.3 * f - 0.6));
+    const MemorySequence sequence(grid.mesh.F, frames);
+    const QuadMesh after =
+        relax_quads(grid.quads, sequence, grid.topology, grid.metric, {.reference_frame = 2}, {});
+    grid.expect_kept(after);
+    double cost_before = 0;
+    double cost_after = 0;
+    for (const Positions& frame : frames) {
+        cost_before += grid.cost(grid.quads, frame);
+        cost_after += grid.cost(after, frame);
+    }
+    EXPECT_LT(cost_after, 0.8 * cost_before);
+    EXPECT_GT(grid.least_jacobian(after, frames[2]), 0.15);
+}
+
+TEST(RelaxQuads, TheRestShapeCanBeTheReference) {
+    Grid grid(landscape(14, hill), 7, 0.1);
+    grid.quads.vertex[static_cast<std::size_t>(3 * 8 + 3)] = grid.above(0.61, 0.47);
+    ASSERT_LE(grid.least_jacobian(grid.quads, grid.mesh.V), 0);
+    const MemorySequence sequence(grid.mesh.F, {sheared(grid.mesh.V, 0.2)}, grid.mesh.V);
+    const QuadMesh after = relax_quads(grid.quads, sequence, grid.topology, grid.metric,
+                                       {.sampled_frames = 1, .reference_is_rest_shape = true}, {});
+    EXPECT_GT(grid.least_jacobian(after, grid.mesh.V), 0);
+    grid.expect_kept(after);
+}
+
+TEST(RelaxQuads, TheSameInputGivesTheSameMesh) {
+    const Grid grid(landscape(14, hill), 7, 0.45);
+    const MemorySequence sequence(grid.mesh.F, {grid.mesh.V, sheared(grid.mesh.V, 0.5)});
+    Context one;
+    one.threads = 1;
+    const QuadMesh a = relax_quads(grid.quads, sequence, grid.topology, grid.metric, {}, one);
+    const QuadMesh b = relax_quads(grid.quads, sequence, grid.topology, grid.metric, {}, {});
+    for (std::size_t v = 0; v < a.vertex.size(); ++v) {
+        EXPECT_EQ(a.vertex[v].triangle, b.vertex[v].triangle);
+        EXPECT_EQ(a.vertex[v].barycentric, b.vertex[v].barycentric);
+    }
+}
+
+}  // namespace
+}  // namespace kinequad

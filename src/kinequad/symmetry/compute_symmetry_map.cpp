@@ -10,10 +10,11 @@
 #include "kinequad/symmetry/check_landmarks.h"
 #include "kinequad/symmetry/closed_surface.h"
 #include "kinequad/symmetry/compute_transport.h"
-#include "kinequad/symmetry/hold_out_landmarks.h"
 #include "kinequad/symmetry/locate_on_sphere.h"
 #include "kinequad/symmetry/map_to_sphere.h"
+#include "kinequad/symmetry/match_extremities.h"
 #include "kinequad/symmetry/stationary_curve.h"
+#include "kinequad/symmetry/surface_distances.h"
 #include "kinequad/symmetry/verify_symmetry_map.h"
 #include "kinequad/symmetry/warp_to_landmarks.h"
 
@@ -90,6 +91,25 @@ void locate_centres(const ClosedSurface& surface, const SpherePoints& points,
     images.unplaced += static_cast<int>(std::count(is_outside.begin(), is_outside.end(), 1));
 }
 
+/// Warps to the landmarks, then once more with the ends of limbs that these miss.
+SpherePoints warp_and_extend(const ClosedSurface& surface, const SurfaceDistances& distances,
+                             const SphereLandmarks& marks, const SpherePoints& points,
+                             const RealVector3& axis, const Context& context) {
+    SpherePoints warped = warp_to_landmarks(points, marks, axis, context);
+    const SphereLandmarks more =
+        match_extremities(surface.topology, surface.metric, distances, warped, axis);
+    if (more.pairs.empty() && more.stationary.empty()) return warped;
+    context.write_log(
+        LogLevel::info,
+        fmt::format("symmetry: {} pairs of limb ends and {} ends on the line of symmetry added to "
+                    "the landmarks",
+                    more.pairs.size(), more.stationary.size()));
+    SphereLandmarks all = marks;
+    all.pairs.insert(all.pairs.end(), more.pairs.begin(), more.pairs.end());
+    all.stationary.insert(all.stationary.end(), more.stationary.begin(), more.stationary.end());
+    return warp_to_landmarks(points, all, axis, context);
+}
+
 void require_fit(const AntiInvolution& fit) {
     require(fit.gap > 1e-7, InputFault::symmetry,
             "landmarks: more than one symmetry fits them; add pairs far from each other, or points "
@@ -109,21 +129,22 @@ SymmetryMap compute_symmetry_map(const TriangleMesh& mesh, const IntrinsicMetric
     const ClosedSurface surface = close_surface(mesh, topology, metric);
     const SphereLandmarks marks = to_sphere_landmarks(landmarks, surface);
     context.report_progress("symmetry", 0);
+    const SurfaceDistances distances =
+        tabulate_distances(surface.topology, surface.metric, all_vertices(marks), 12, 4);
+    SymmetryMap map;
+    map.quality.landmark_difference_percent =
+        compare_landmark_distances(distances, marks, landmarks, options.landmark_percent);
     const SphereMap sphere =
-        map_to_sphere(surface.topology, surface.metric, all_vertices(marks), context);
+        map_to_sphere(surface.topology, surface.metric, distances.mean, context);
     context.report_progress("symmetry", 0.6);
 
-    SymmetryMap map;
     map.method = sphere.is_uniform ? "conformal" : "harmonic";
     const AntiInvolution fit = fit_anti_involution(sphere.points, marks);
     require_fit(fit);
     map.quality.fit_rms = fit.rms;
-    map.quality.held_out_percent =
-        hold_out_landmarks(surface, sphere.points, marks, landmarks, context);
-
     SpherePoints points = sphere.points;
     const RealVector3 axis = move_to_great_circle(points, fit);
-    points = warp_to_landmarks(points, marks, axis, context);
+    points = warp_and_extend(surface, distances, marks, points, axis, context);
     Images images;
     locate_vertices(surface.topology, points, axis, images, context);
     locate_centres(surface, points, axis, images, context);
@@ -166,10 +187,10 @@ SymmetryMap compute_symmetry_map(const TriangleMesh& mesh, const IntrinsicMetric
     }
     context.write_log(
         LogLevel::info,
-        fmt::format("symmetry: {} map from {} landmarks; fit {:.3f}, held-out landmarks {:.2f} %, "
+        fmt::format("symmetry: {} map from {} landmarks; fit {:.3f}, landmark distances {:.2f} %, "
                     "S(S(p)) {:.3f} % off, {} reversed triangles",
                     map.method, landmarks.pairs.size() + landmarks.stationary.size(), fit.rms,
-                    map.quality.held_out_percent, report.involution_mean_percent,
+                    map.quality.landmark_difference_percent, report.involution_mean_percent,
                     map.quality.reversed_triangles));
     context.report_progress("symmetry", 1);
     return map;

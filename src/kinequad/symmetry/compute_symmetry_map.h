@@ -12,6 +12,9 @@ struct SymmetryOptions {
     /// Largest mean distance of `p` and `S(S(p))`, in percent of the bounding-box diagonal, that is
     /// still called an involution.
     double involution_percent = 2;
+    /// Largest difference between the two sides in a landmark's distances to the others, their
+    /// median in percent of the surface's extent, beyond which the landmark is called wrong.
+    double landmark_percent = 8;
 };
 
 /// Computes the bilateral intrinsic symmetry of a surface of genus 0 from landmarks: conformal map

@@ -93,8 +93,8 @@ Transport compute_transport(const Topology& topology, const IntrinsicMetric& met
                             const std::vector<SurfacePoint>& vertex_image,
                             const std::vector<SurfacePoint>& centre_image, const Context& context) {
     Transport transport;
-    transport.angle = Eigen::VectorXd::Zero(topology.triangle_count);
-    std::vector<LocalTransport> local(at(topology.triangle_count));
+    transport.angle = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(centre_image.size()));
+    std::vector<LocalTransport> local(centre_image.size());
     parallel_for(local.size(), 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
             local[t] = transport_at(topology, metric, vertex_image, static_cast<int>(t),

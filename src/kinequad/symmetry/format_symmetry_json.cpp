@@ -26,7 +26,7 @@ std::string format_symmetry_json(const SymmetryMap& map) {
     file["method"] = map.method;
     const SymmetryQuality& q = map.quality;
     file["quality"] = {{"fit_rms", q.fit_rms},
-                       {"held_out_percent", q.held_out_percent},
+                       {"landmark_difference_percent", q.landmark_difference_percent},
                        {"involution_mean_percent", q.involution_mean_percent},
                        {"involution_max_percent", q.involution_max_percent},
                        {"reversed_triangles", q.reversed_triangles},

@@ -36,7 +36,7 @@ SphereLocation search_all(const Topology& topology, const SpherePoints& points,
                           const RealVector3& query) {
     SphereLocation best;
     best.is_inside = false;
-    Real nearest = std::numeric_limits<Real>::infinity();
+    double nearest = std::numeric_limits<double>::infinity();
     for (int t = 0; t < topology.triangle_count; ++t) {
         const Corners k = corners_of(topology, points, t);
         RealVector3 x = ray_coordinates(k, query);
@@ -48,7 +48,7 @@ SphereLocation search_all(const Topology& topology, const SpherePoints& points,
         const TrianglePoint found = closest_point_on_triangle(
             Vector3::Zero(), (k.a - query).cast<double>(), (k.b - query).cast<double>(),
             (k.c - query).cast<double>());
-        if (found.squared_distance < static_cast<double>(nearest)) {
+        if (found.squared_distance < nearest) {
             nearest = found.squared_distance;
             best.point = {t, found.barycentric};
         }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
 
 #include "kinequad/core/error.h"
 #include "kinequad/symmetry/punctured_disk.h"
@@ -14,65 +13,15 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Lengths of shortest edge paths from one vertex.
-std::vector<double> edge_distances(const Topology& topology, const IntrinsicMetric& metric,
-                                   int source) {
-    std::vector<double> distance(at(topology.vertex_count),
-                                 std::numeric_limits<double>::infinity());
-    using Entry = std::pair<double, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    distance[at(source)] = 0;
-    queue.emplace(0.0, source);
-    while (!queue.empty()) {
-        const auto [d, v] = queue.top();
-        queue.pop();
-        if (d > distance[at(v)]) continue;
-        const int start = topology.vertex_half_edge[at(v)];
-        int h = start;
-        while (h >= 0) {
-            const int w = topology.target(h);
-            const double there = d + metric.edge_length[topology.edge[at(h)]];
-            if (there < distance[at(w)]) {
-                distance[at(w)] = there;
-                queue.emplace(there, w);
-            }
-            h = topology.rotate_counter_clockwise(h);
-            if (h == start) break;
-        }
-    }
-    return distance;
-}
-
-/// Vertices in the order of their mean distance from the landmarks and from the vertices farthest
-/// from all of these.
-std::vector<int> order_by_centrality(const Topology& topology, const IntrinsicMetric& metric,
-                                     std::vector<int> sources) {
-    constexpr std::size_t wanted = 12;
-    std::vector<double> sum(at(topology.vertex_count), 0.0);
-    std::vector<double> nearest(at(topology.vertex_count), std::numeric_limits<double>::infinity());
-    if (sources.empty()) sources.push_back(topology.origin.front());
-    for (std::size_t i = 0; i < std::max(wanted, sources.size()); ++i) {
-        if (i == sources.size()) {
-            int farthest = sources.front();
-            for (int v = 0; v < topology.vertex_count; ++v) {
-                if (std::isfinite(nearest[at(v)]) && nearest[at(v)] > nearest[at(farthest)]) {
-                    farthest = v;
-                }
-            }
-            sources.push_back(farthest);
-        }
-        const std::vector<double> distance = edge_distances(topology, metric, sources[i]);
-        for (std::size_t v = 0; v < sum.size(); ++v) {
-            sum[v] += distance[v];
-            nearest[v] = std::min(nearest[v], distance[v]);
-        }
-    }
+/// Vertices with triangles, in the order of `remoteness`.
+std::vector<int> order_by_centrality(const Topology& topology,
+                                     const std::vector<double>& remoteness) {
     std::vector<int> order;
     for (int v = 0; v < topology.vertex_count; ++v) {
         if (topology.vertex_half_edge[at(v)] >= 0) order.push_back(v);
     }
     std::sort(order.begin(), order.end(), [&](int a, int b) {
-        return sum[at(a)] != sum[at(b)] ? sum[at(a)] < sum[at(b)] : a < b;
+        return remoteness[at(a)] != remoteness[at(b)] ? remoteness[at(a)] < remoteness[at(b)] : a < b;
     });
     return order;
 }
@@ -106,7 +55,7 @@ SpherePoints wrap_plane(const Eigen::Matrix<Real, Eigen::Dynamic, 2>& z, int pun
                         const Eigen::Matrix<Real, Eigen::Dynamic, 1>& area) {
     const Eigen::Matrix<Real, 1, 2> mean = area.transpose() * z;
     const auto centred = (z.rowwise() - mean).eval();
-    const Real scale = 1 / std::sqrt(area.dot(centred.rowwise().squaredNorm()));
+    const Real scale = Real(1) / sqrt(area.dot(centred.rowwise().squaredNorm()));
     SpherePoints points(z.rows(), 3);
     for (Eigen::Index v = 0; v < z.rows(); ++v) {
         const Eigen::Matrix<Real, 1, 2> w = scale * centred.row(v);
@@ -121,7 +70,7 @@ SpherePoints wrap_plane(const Eigen::Matrix<Real, Eigen::Dynamic, 2>& z, int pun
 /// Moves the centre of area to the centre of the sphere [Baden 2018].
 void centre_points(SpherePoints& points, const Eigen::Matrix<Real, Eigen::Dynamic, 1>& area) {
     RealVector3 centre = (area.transpose() * points).transpose();
-    for (int round = 0; round < 100 && centre.norm() > 1e-12L; ++round) {
+    for (int round = 0; round < 100 && centre.norm() > 1e-12; ++round) {
         Eigen::Matrix<Real, 3, 3> second = Eigen::Matrix<Real, 3, 3>::Zero();
         for (Eigen::Index v = 0; v < points.rows(); ++v) {
             second += area[v] * points.row(v).transpose() * points.row(v);
@@ -130,9 +79,9 @@ void centre_points(SpherePoints& points, const Eigen::Matrix<Real, Eigen::Dynami
         const RealVector3 step = change.inverse() * centre;
         const Real length = step.norm();
         if (!(length > 0)) break;
-        Real beta = std::min<Real>(length, Real(0.8));
+        Real beta = std::min(length, Real(0.8));
         bool is_accepted = false;
-        for (; beta > 1e-14L && !is_accepted; beta /= 2) {
+        for (; beta > 1e-14 && !is_accepted; beta /= 2) {
             SpherePoints trial = points;
             boost_points(trial, step / length, beta);
             const RealVector3 there = (area.transpose() * trial).transpose();
@@ -149,7 +98,7 @@ void centre_points(SpherePoints& points, const Eigen::Matrix<Real, Eigen::Dynami
 }  // namespace
 
 void boost_points(SpherePoints& points, const RealVector3& direction, Real beta) {
-    const Real gamma = 1 / std::sqrt(1 - beta * beta);
+    const Real gamma = Real(1) / sqrt(Real(1) - beta * beta);
     for (Eigen::Index v = 0; v < points.rows(); ++v) {
         const RealVector3 x = points.row(v).transpose();
         const Real along = x.dot(direction);
@@ -160,8 +109,8 @@ void boost_points(SpherePoints& points, const RealVector3& direction, Real beta)
 }
 
 SphereMap map_to_sphere(const Topology& topology, const IntrinsicMetric& metric,
-                        const std::vector<int>& landmarks, const Context& context) {
-    const std::vector<int> order = order_by_centrality(topology, metric, landmarks);
+                        const std::vector<double>& remoteness, const Context& context) {
+    const std::vector<int> order = order_by_centrality(topology, remoteness);
     FlipTriangulation delaunay = make_flip_triangulation(topology, metric);
     flip_to_delaunay(delaunay, Eigen::VectorXd::Ones(topology.vertex_count), FlipRule::euclidean);
     std::vector<int> leaving(at(topology.vertex_count), -1);
@@ -176,7 +125,7 @@ SphereMap map_to_sphere(const Topology& topology, const IntrinsicMetric& metric,
         map.reversed_triangles = count_reversed(topology, map.points);
         return map;
     };
-    const int tolerated = topology.triangle_count / 1000;
+    const int tolerated = std::max(2, topology.triangle_count / 500);
     SphereMap best;
     best.reversed_triangles = std::numeric_limits<int>::max();
     int tried = 0;

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "kinequad/core/types.h"
+#include "kinequad/symmetry/double_double.h"
 
 namespace kinequad {
 
-/// Limbs shrink to 1e-14 of the sphere under a conformal map: the longest hardware type keeps their
-/// inner shape where `double` begins to lose it.
-using Real = long double;
+/// Number type of coordinates on the sphere.
+using Real = DoubleDouble;
 using RealVector3 = Eigen::Matrix<Real, 3, 1>;
 /// Points of the unit sphere, one a row.
 using SpherePoints = Eigen::Matrix<Real, Eigen::Dynamic, 3, Eigen::RowMajor>;

@@ -20,9 +20,9 @@ struct SymmetryQuality {
     /// Root mean square of the landmarks' chordal distances on the unit sphere to where the fitted
     /// anti-involution sends their partners; 0 for a mirror plane.
     double fit_rms = 0;
-    /// Mean distance of a landmark from where the map fitted without it sends its partner; 0 for
-    /// a mirror plane, or where there are too few landmarks to leave one out.
-    double held_out_percent = 0;
+    /// Mean difference between the two sides in the distances of landmarks from each other, in
+    /// percent of the surface's extent; 0 for a mirror plane.
+    double landmark_difference_percent = 0;
     double involution_mean_percent = 0;  ///< mean distance of vertices `p` and `S(S(p))`
     double involution_max_percent = 0;   ///< largest such distance
     int reversed_triangles = 0;          ///< triangles whose image keeps its orientation

@@ -13,7 +13,7 @@ using RealMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 /// r^1.5: its displacements have continuous derivatives, and never folded the sphere.
 Real kernel(const RealVector3& a, const RealVector3& b) {
     const Real r = (a - b).norm();
-    return r * std::sqrt(r);
+    return r * sqrt(r);
 }
 
 }  // namespace

@@ -1,0 +1,174 @@
+#include "kinequad/symmetry/compute_mirror_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "kinequad/core/error.h"
+#include "kinequad/core/parallel.h"
+#include "kinequad/mesh/closest_point_on_triangle.h"
+#include "kinequad/mesh/closest_points.h"
+#include "kinequad/symmetry/compute_transport.h"
+#include "kinequad/symmetry/stationary_curve.h"
+#include "kinequad/symmetry/verify_symmetry_map.h"
+
+namespace kinequad {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// One component of the surface with its own search.
+struct Component {
+    std::vector<int> triangle;  ///< numbers in the whole mesh
+    ClosestPoints search;
+};
+
+/// The surface by components, and which one mirrors which.
+class MirroredSurface {
+public:
+    MirroredSurface(const TriangleMesh& mesh, const Topology& topology, const MirrorPlane& plane)
+        : mesh_(mesh), topology_(topology), plane_(plane), component_(triangle_components(topology)) {
+        const int count = 1 + *std::max_element(component_.begin(), component_.end());
+        std::vector<std::vector<int>> members(at(count));
+        for (int t = 0; t < topology.triangle_count; ++t) {
+            members[at(component_[at(t)])].push_back(t);
+        }
+        for (std::vector<int>& triangles : members) {
+            Triangles F(static_cast<Eigen::Index>(triangles.size()), 3);
+            for (std::size_t i = 0; i < triangles.size(); ++i) {
+                F.row(static_cast<Eigen::Index>(i)) = mesh.F.row(triangles[i]);
+            }
+            ClosestPoints search(mesh.V, F);
+            components_.push_back({std::move(triangles), std::move(search)});
+        }
+        normals_.resize(mesh.F.rows(), 3);
+        for (Eigen::Index t = 0; t < mesh.F.rows(); ++t) {
+            const Vector3 a = corner(t, 0);
+            normals_.row(t) = (corner(t, 1) - a).cross(corner(t, 2) - a).normalized().transpose();
+        }
+        choose_partners();
+    }
+
+    /// Image of a point of component `component` whose surface faces along `normal`.
+    SurfacePoint image(const Vector3& point, const Vector3& normal, int component) const {
+        const Vector3 goal = plane_.reflect(point);
+        const Component& partner = components_[at(partner_[at(component)])];
+        const SurfacePoint local = partner.search.find(goal).point;
+        const SurfacePoint nearest{partner.triangle[at(local.triangle)], local.barycentric};
+        const Vector3 facing = normal - 2 * normal.dot(plane_.normal) * plane_.normal;
+        if (normals_.row(nearest.triangle).dot(facing) >= 0) return nearest;
+        // Where parts touch, the nearest point can be that of the other part: the nearest that
+        // faces the same way is asked for.
+        double best = std::numeric_limits<double>::infinity();
+        SurfacePoint result = nearest;
+        for (const int t : partner.triangle) {
+            if (normals_.row(t).dot(facing) < 0) continue;
+            const TrianglePoint found =
+                closest_point_on_triangle(goal, corner(t, 0), corner(t, 1), corner(t, 2));
+            if (found.squared_distance < best) {
+                best = found.squared_distance;
+                result = {t, found.barycentric};
+            }
+        }
+        return result;
+    }
+
+    Vector3 corner(Eigen::Index t, int k) const { return mesh_.V.row(mesh_.F(t, k)).transpose(); }
+    Vector3 triangle_normal(int t) const { return normals_.row(t).transpose(); }
+    Vector3 vertex_normal(int v) const {
+        Vector3 sum = Vector3::Zero();
+        for (const int h : outgoing_half_edges(topology_, v)) {
+            const Vector3 a = corner(h / 3, 0);
+            sum += (corner(h / 3, 1) - a).cross(corner(h / 3, 2) - a);
+        }
+        return sum.normalized();
+    }
+    int component_of(int t) const { return component_[at(t)]; }
+
+private:
+    /// Every component votes with its triangle centres.
+    void choose_partners() {
+        const ClosestPoints all(mesh_.V, mesh_.F);
+        for (const Component& component : components_) {
+            std::vector<int> votes(components_.size(), 0);
+            if (components_.size() == 1) votes[0] = 1;
+            const std::size_t step = std::max<std::size_t>(1, component.triangle.size() / 500);
+            for (std::size_t i = 0; components_.size() > 1 && i < component.triangle.size();
+                 i += step) {
+                const int t = component.triangle[i];
+                const Vector3 centre = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
+                ++votes[at(component_[at(all.find(plane_.reflect(centre)).point.triangle)])];
+            }
+            const auto most = std::max_element(votes.begin(), votes.end());
+            partner_.push_back(static_cast<int>(most - votes.begin()));
+        }
+    }
+
+    const TriangleMesh& mesh_;
+    const Topology& topology_;
+    const MirrorPlane& plane_;
+    std::vector<int> component_;
+    std::vector<Component> components_;
+    std::vector<int> partner_;
+    Positions normals_;
+};
+
+}  // namespace
+
+SymmetryMap compute_mirror_map(const TriangleMesh& mesh, const MirrorPlane& plane,
+                               const IntrinsicMetric& metric, const Context& context) {
+    const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));
+    require(topology.triangle_count > 0, InputFault::mesh,
+            "the surface has no triangle; give one with faces");
+    const MirroredSurface surface(mesh, topology, plane);
+    SymmetryMap map;
+    map.method = "mirror plane";
+    map.quality.mirror_residual_percent = plane.residual_percent;
+    map.vertex_image.resize(at(topology.vertex_count));
+    parallel_for(map.vertex_image.size(), 256, context, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const int v = static_cast<int>(i);
+            const int h = topology.vertex_half_edge[i];
+            if (h < 0) continue;
+            map.vertex_image[i] = surface.image(mesh.V.row(v).transpose(), surface.vertex_normal(v),
+                                                surface.component_of(h / 3));
+        }
+    });
+    map.centre_image.resize(at(topology.triangle_count));
+    parallel_for(map.centre_image.size(), 256, context, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const int t = static_cast<int>(i);
+            const Vector3 centre =
+                (surface.corner(t, 0) + surface.corner(t, 1) + surface.corner(t, 2)) / 3;
+            map.centre_image[i] =
+                surface.image(centre, surface.triangle_normal(t), surface.component_of(t));
+        }
+    });
+    const Transport transport =
+        compute_transport(topology, metric, map.vertex_image, map.centre_image, context);
+    map.transport = transport.angle;
+    map.quality.reversed_triangles = transport.reversed_triangles;
+    const double diagonal = bounding_box_diagonal(mesh.V);
+    Eigen::VectorXd height = (mesh.V * plane.normal).array() - plane.offset;
+    height /= diagonal;
+    StationaryCurve curve =
+        trace_stationary_curve(topology, metric, height, topology.triangle_count, 0.02);
+    require(!curve.polylines.empty(), InputFault::symmetry,
+            "the mirror plane does not cut the surface; the line of symmetry would be empty");
+    map.height = std::move(curve.height);
+    map.stationary = std::move(curve.polylines);
+    map.stationary_direction = std::move(curve.directions);
+    const SymmetryReport report = verify_symmetry_map(mesh, map);
+    if (!report.is_complete) throw VerificationError("symmetry: " + report.problem);
+    map.quality.involution_mean_percent = report.involution_mean_percent;
+    map.quality.involution_max_percent = report.involution_max_percent;
+    context.write_log(LogLevel::info,
+                      fmt::format("symmetry: map from a mirror plane; residual {:.4f} %, S(S(p)) "
+                                  "{:.3f} % off, {} reversed triangles",
+                                  plane.residual_percent, report.involution_mean_percent,
+                                  map.quality.reversed_triangles));
+    return map;
+}
+
+}  // namespace kinequad

@@ -8,33 +8,12 @@
 #include <numeric>
 
 #include "kinequad/core/error.h"
+#include "kinequad/symmetry/weld_seams.h"
 
 namespace kinequad {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// Lowest boundary vertex at the same place as each vertex; itself where there is none.
-std::vector<int> weld_seams(const TriangleMesh& mesh, const Topology& topology) {
-    std::vector<int> vertex(at(topology.vertex_count));
-    std::iota(vertex.begin(), vertex.end(), 0);
-    std::vector<int> border;
-    for (int v = 0; v < topology.vertex_count; ++v) {
-        if (topology.is_boundary_vertex(v)) border.push_back(v);
-    }
-    // Copies of one vertex in a file are the same numbers; what merely lies near is no seam.
-    const auto place = [&](int v) {
-        return std::array{mesh.V(v, 0), mesh.V(v, 1), mesh.V(v, 2)};
-    };
-    std::stable_sort(border.begin(), border.end(),
-                     [&](int a, int b) { return place(a) < place(b); });
-    for (std::size_t i = 1; i < border.size(); ++i) {
-        if (place(border[i]) == place(border[i - 1])) {
-            vertex[at(border[i])] = vertex[at(border[i - 1])];
-        }
-    }
-    return vertex;
-}
 
 Triangles renumber(const Triangles& F, const std::vector<int>& vertex) {
     Triangles result = F;
@@ -101,15 +80,7 @@ ClosedSurface close_surface(const TriangleMesh& mesh, const Topology& topology,
     closed.vertex = weld_seams(mesh, topology);
     closed.F = renumber(mesh.F, closed.vertex);
     int vertex_count = topology.vertex_count;
-    Topology open;
-    try {
-        open = build_topology(closed.F, vertex_count);
-    } catch (const InputError&) {
-        // Seams that do not fit to each other stay open.
-        std::iota(closed.vertex.begin(), closed.vertex.end(), 0);
-        closed.F = mesh.F;
-        open = topology;
-    }
+    const Topology open = build_topology(closed.F, vertex_count);
     const std::vector<std::vector<int>> loops = boundary_loops(open);
     std::vector<double> spoke;
     for (const std::vector<int>& loop : loops) {
@@ -133,7 +104,12 @@ ClosedSurface close_surface(const TriangleMesh& mesh, const Topology& topology,
     for (int e = 0; e < closed.topology.edge_count; ++e) {
         const int h = closed.topology.edge_half_edge[at(e)];
         if (h < inner) {
-            closed.metric.edge_length[e] = metric.edge_length[topology.edge[at(h)]];
+            const int other = closed.topology.twin[at(h)];
+            const int same = other >= 0 && other < inner ? other : h;
+            // Both sides of a seam may have measured it.
+            closed.metric.edge_length[e] = (metric.edge_length[topology.edge[at(h)]] +
+                                            metric.edge_length[topology.edge[at(same)]]) /
+                                           2;
             continue;
         }
         const int apex = std::max(closed.topology.origin[at(h)], closed.topology.target(h));

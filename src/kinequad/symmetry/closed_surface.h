@@ -5,7 +5,7 @@
 
 namespace kinequad {
 
-/// A surface made closed: seams whose vertices coincide are welded, every boundary loop that is
+/// A surface made closed: matching seams are welded, every boundary loop that is
 /// left is filled by a cone. Triangles keep their numbers and corners; those of the cones follow.
 struct ClosedSurface {
     Triangles F;                     ///< triangles over the welded vertices and the apexes

@@ -159,7 +159,7 @@ std::optional<SymmetricPose> find_symmetric_pose(const FrameSource& frames,
         pose.frame = frame;
         pose.mesh = {frame < 0 ? frames.read_rest_shape() : frames.read_frame(frame),
                      frames.triangles()};
-        pose.plane = search_plane(pose.mesh, 20 * tolerated_percent, context);
+        pose.plane = search_plane(pose.mesh, 10 * tolerated_percent, context);
         if (pose.plane.residual_percent > tolerated_percent) return std::nullopt;
         return pose;
     };

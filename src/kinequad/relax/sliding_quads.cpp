@@ -156,26 +156,43 @@ Vector2 SlidingQuads::wanted_move(int v) const {
 
 void SlidingQuads::release() { is_pinned_ = is_on_boundary_; }
 
-bool SlidingQuads::improve(int v) {
+/// Largest `distance_of` among the quads around `v` that are watched; 0 where none is.
+double SlidingQuads::watched_distance(int v, const ClosestPoints& surface) const {
+    double farthest = 0;
+    for (const int c : corners_of(v)) {
+        if (is_watched_[at(c / 4)]) farthest = std::max(farthest, distance_of(c / 4, surface));
+    }
+    return farthest;
+}
+
+bool SlidingQuads::improve(int v, double distance_limit, const ClosestPoints& surface) {
     const Vector2 move = wanted_move(v);
     const SurfacePoint before = quads_.vertex[at(v)];
     const Positions& X = frames_[0].vertices;
     const double size = (X.row(neighbour(*corners_of(v).begin(), 1)) - X.row(v)).norm();
     if (!move.allFinite() || move.norm() < least_move * size) return false;
     const double cost_before = cost_around(v, relaxing_barrier);
+    const double allowed = std::max(distance_limit, watched_distance(v, surface));
     for (const double length : {1.0, 0.4}) {
         place(v, trace_geodesic(topology_, metric_, before, length * move));
-        if (cost_around(v, relaxing_barrier) < cost_before) return true;
+        if (cost_around(v, relaxing_barrier) < cost_before && watched_distance(v, surface) <= allowed) {
+            return true;
+        }
     }
     place(v, before);
     return false;
 }
 
-int SlidingQuads::relax_pass(const Context& context) {
+int SlidingQuads::relax_pass(double distance_limit, const ClosestPoints& surface, const Context& context) {
+    // Distances are slow: they are asked for only where quads are about to leave the surface.
+    is_watched_.resize(at(static_cast<int>(quads_.Q.rows())));
+    for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
+        is_watched_[at(q)] = distance_of(q, surface) > 0.5 * distance_limit ? 1 : 0;
+    }
     int moves = 0;
     for (int v = 0; v < static_cast<int>(quads_.vertex.size()); ++v) {
         if (v % 512 == 0) context.check_cancelled();
-        if (is_pinned_[at(v)] == 0) moves += improve(v) ? 1 : 0;
+        if (is_pinned_[at(v)] == 0) moves += improve(v, distance_limit, surface) ? 1 : 0;
     }
     return moves;
 }
@@ -203,6 +220,25 @@ void SlidingQuads::search_around(int v, const std::function<double()>& cost) {
     place(v, best);
 }
 
+/// The corners of a quad and all vertices up to `reach` quads farther on, in ascending order.
+std::vector<int> SlidingQuads::vertices_around(int quad, int reach) const {
+    std::vector<int> around;
+    for (int k = 0; k < 4; ++k) around.push_back(quads_.Q(quad, k));
+    for (int ring = 0; ring < reach; ++ring) {
+        std::vector<int> wider = around;
+        for (const int v : around) {
+            for (const int c : corners_of(v)) {
+                wider.insert(wider.end(), {neighbour(c, 1), neighbour(c, 2), neighbour(c, 3)});
+            }
+        }
+        std::sort(wider.begin(), wider.end());
+        wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
+        around = std::move(wider);
+    }
+    std::sort(around.begin(), around.end());
+    return around;
+}
+
 int SlidingQuads::unfold_pass(double safe_jacobian, int reach, const Context& context) {
     const FoldBarrier barrier{safe_jacobian, 100};
     // The reference frame decides; the others only choose among what unfolds it alike.
@@ -217,20 +253,7 @@ int SlidingQuads::unfold_pass(double safe_jacobian, int reach, const Context& co
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
         if (least_scaled_jacobian(corners_in(frames_[0], q)) >= safe_jacobian) continue;
         context.check_cancelled();
-        std::vector<int> around;
-        for (int k = 0; k < 4; ++k) around.push_back(quads_.Q(q, k));
-        for (int ring = 0; ring < reach; ++ring) {
-            std::vector<int> wider = around;
-            for (const int v : around) {
-                for (const int c : corners_of(v)) {
-                    wider.insert(wider.end(), {neighbour(c, 1), neighbour(c, 2), neighbour(c, 3)});
-                }
-            }
-            std::sort(wider.begin(), wider.end());
-            wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
-            around = std::move(wider);
-        }
-        for (const int v : around) {
+        for (const int v : vertices_around(q, reach)) {
             if (is_pinned_[at(v)] == 0) search_around(v, [&] { return cost(v); });
         }
         folded += least_scaled_jacobian(corners_in(frames_[0], q)) <= 0 ? 1 : 0;
@@ -253,15 +276,15 @@ double SlidingQuads::distance_of(int quad, const ClosestPoints& surface) const {
     return std::sqrt(farthest);
 }
 
-int SlidingQuads::hug_surface(double limit, const ClosestPoints& surface, const Context& context) {
+int SlidingQuads::hug_surface(double limit, int reach, const ClosestPoints& surface,
+                              const Context& context) {
     constexpr double distance_weight = 40;
     const FoldBarrier barrier{0.2, 100};
     int far = 0;
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
         if (q % 256 == 0) context.check_cancelled();
         if (distance_of(q, surface) <= limit) continue;
-        for (int k = 0; k < 4; ++k) {
-            const int v = quads_.Q(q, k);
+        for (const int v : vertices_around(q, reach)) {
             if (is_pinned_[at(v)]) continue;
             search_around(v, [&] {
                 double sum = cost_around(v, barrier) / static_cast<double>(frames_.size());
@@ -353,6 +376,36 @@ int SlidingQuads::cover_extremities(double limit, const Context& context) {
         }
     }
     return placed;
+}
+
+double SlidingQuads::largest_distance(const ClosestPoints& surface) const {
+    double farthest = 0;
+    for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
+        farthest = std::max(farthest, distance_of(q, surface));
+    }
+    const Frame& reference = frames_[0];
+    const ClosestPoints quads(reference.vertices, cut_quads(quads_.Q, reference.vertices));
+    int hint = -1;
+    for (int x = 0; x < topology_.vertex_count; ++x) {
+        if (topology_.vertex_half_edge[at(x)] < 0) continue;
+        const ClosestPoint closest = quads.find(reference.input.row(x).transpose(), hint);
+        hint = closest.point.triangle;
+        farthest = std::max(farthest, std::sqrt(closest.squared_distance));
+    }
+    return farthest;
+}
+
+int SlidingQuads::count_folded() const {
+    int folded = 0;
+    for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
+        folded += least_scaled_jacobian(corners_in(frames_[0], q)) <= 0 ? 1 : 0;
+    }
+    return folded;
+}
+
+void SlidingQuads::restore(const QuadMesh& quads) {
+    for (int v = 0; v < static_cast<int>(quads.vertex.size()); ++v) place(v, quads.vertex[at(v)]);
+    release();
 }
 
 double SlidingQuads::mean_edge_length() const {

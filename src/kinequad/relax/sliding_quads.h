@@ -28,12 +28,24 @@ public:
 
     /// Moves every vertex once towards the squares that fit the quads around it best, where that
     /// lowers their cost over all frames. Returns the number of moves.
-    int relax_pass(const Context& context);
+    /// No move takes a quad farther than `distance_limit` (units of the input) from `surface`, the input in
+    /// the reference frame.
+    int relax_pass(double distance_limit, const ClosestPoints& surface, const Context& context);
 
     /// Tries moves of the vertices up to `reach` quads around every quad whose scaled Jacobian in the
     /// reference frame is below `safe_jacobian`, and keeps what opens it. Returns the number of quads still
     /// folded there.
     int unfold_pass(double safe_jacobian, int reach, const Context& context);
+
+    /// Largest distance between the two surfaces in the reference frame, in units of the input, seen from the
+    /// middles of quads and edges and from the vertices of the input.
+    double largest_distance(const ClosestPoints& surface) const;
+
+    /// Number of quads folded in the reference frame.
+    int count_folded() const;
+
+    /// Puts all vertices where `quads`, of the same connectivity, has them, and sets them free.
+    void restore(const QuadMesh& quads);
 
     /// Sets free what `cover_extremities` has put in place.
     void release();
@@ -43,11 +55,11 @@ public:
     /// before. Returns the number of vertices put in place.
     int cover_extremities(double limit, const Context& context);
 
-    /// Tries small moves of the vertices of quads whose middle or edges leave the surface by more
+    /// Tries moves of the vertices up to `reach` quads around quads whose middle or edges leave the surface by more
     /// than `limit` (units of the input) in the reference frame, as where they bridge a crease, and
     /// keeps what brings them closer. `surface` is the input there. Returns the number of quads
     /// that stay farther away.
-    int hug_surface(double limit, const ClosestPoints& surface, const Context& context);
+    int hug_surface(double limit, int reach, const ClosestPoints& surface, const Context& context);
 
     /// Positions (n x 3) of the input in the reference frame.
     const Positions& reference() const { return frames_[0].input; }
@@ -76,9 +88,11 @@ private:
     double cost_around(int v, const FoldBarrier& barrier) const;
     double least_jacobian_around(int v) const;
     Vector2 wanted_move(int v) const;
-    bool improve(int v);
+    double watched_distance(int v, const ClosestPoints& surface) const;
+    bool improve(int v, double distance_limit, const ClosestPoints& surface);
     void search_around(int v, const std::function<double()>& cost);
     bool move_onto(int v, const SurfacePoint& goal);
+    std::vector<int> vertices_around(int quad, int reach) const;
     double distance_of(int quad, const ClosestPoints& surface) const;
     void place(int v, const SurfacePoint& point);
     void link_corners();
@@ -94,6 +108,7 @@ private:
     std::vector<int> corner_;  ///< corner c of quad q as 4q + c
     std::vector<char> is_pinned_;
     std::vector<char> is_on_boundary_;
+    std::vector<char> is_watched_;  ///< q: see `relax_pass`
 };
 
 }  // namespace kinequad

@@ -10,6 +10,18 @@
 namespace kinequad {
 namespace {
 
+double product(const LinearForm<double>& form, const Eigen::VectorXd& y) {
+    double sum = 0;
+    for (const auto& [unknown, c] : form) sum += c * y[unknown];
+    return sum;
+}
+
+std::size_t edges_shorter(const ConeTriangulation& cone, double length) {
+    const std::vector<int> edges = cone.edges();
+    return static_cast<std::size_t>(std::count_if(
+        edges.begin(), edges.end(), [&](int h) { return cone.edge_length(h) < length; }));
+}
+
 using test::at;
 
 struct ConeMap {
@@ -69,9 +81,9 @@ TEST(ConeTriangulation, ACubeIsTheDelaunayTriangulationOfItsCorners) {
     const ConeMap it = cones_of(test::surface_of(test::cube(5)), 600);
     ASSERT_EQ(it.cone.triangle_count(), 12);
     for (const double d : determinants(it.cone)) EXPECT_NEAR(d, 100, 1e-6);
-    EXPECT_EQ(it.cone.short_edges(10.001).size(), 12U);
-    EXPECT_EQ(it.cone.short_edges(9.999).size(), 0U);
-    EXPECT_EQ(it.cone.short_edges(15).size(), 18U);
+    EXPECT_EQ(edges_shorter(it.cone, 10.001), 12U);
+    EXPECT_EQ(edges_shorter(it.cone, 9.999), 0U);
+    EXPECT_EQ(edges_shorter(it.cone, 15), 18U);
 }
 
 TEST(ConeTriangulation, MovingThereAndBackRestores) {
@@ -146,11 +158,11 @@ TEST(ConeTriangulation, GradientsAreTheDifferences) {
         ahead.snap(it.seamless.integers + step * direction);
         behind.snap(it.seamless.integers - step * direction);
         for (int i = 0; i < it.cone.triangle_count(); ++i) {
-            EXPECT_NEAR(it.cone.determinant_gradient(i).dot(direction),
+            EXPECT_NEAR(product(it.cone.determinant_gradient(i), direction),
                         (ahead.determinant(i) - behind.determinant(i)) / (2 * step), 1e-5);
         }
-        for (const int h : it.cone.short_edges(1e3)) {
-            EXPECT_NEAR(it.cone.edge_length_gradient(h).dot(direction),
+        for (const int h : it.cone.edges()) {
+            EXPECT_NEAR(product(it.cone.edge_length_gradient(h), direction),
                         (ahead.edge_length(h) - behind.edge_length(h)) / (2 * step), 1e-5);
         }
     }

@@ -29,20 +29,26 @@ double boundary_length(const Topology& topology, const IntrinsicMetric& metric) 
     return sum;
 }
 
-/// The longest side of each of `triangles` in the plane where its corners are `corners`, each edge once.
+/// The longest sides of `triangles` in the plane where their corners are `corners`. No two of the
+/// sides belong to one triangle, so that all can be split one after the other.
 std::vector<int> longest_sides(const ChartedMesh& mesh, const std::vector<Complex>& corners,
                                const std::vector<int>& triangles) {
     std::vector<int> chosen;
+    std::vector<char> is_taken(mesh.parent.size(), 0);
     for (const int t : triangles) {
         int longest = 3 * t;
         for (int h = 3 * t; h < 3 * t + 3; ++h) {
-            const auto length = [&](int e) { return std::abs(corners[at(Topology::next(e))] - corners[at(e)]); };
+            const auto length = [&](int e) {
+                return std::abs(corners[at(Topology::next(e))] - corners[at(e)]);
+            };
             if (length(h) > length(longest)) longest = h;
         }
-        chosen.push_back(mesh.twin[at(longest)] >= 0 ? std::min(longest, mesh.twin[at(longest)]) : longest);
+        const int other = mesh.twin[at(longest)];
+        if (is_taken[at(t)] || (other >= 0 && is_taken[at(other / 3)])) continue;
+        is_taken[at(t)] = 1;
+        if (other >= 0) is_taken[at(other / 3)] = 1;
+        chosen.push_back(longest);
     }
-    std::sort(chosen.begin(), chosen.end());
-    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
     return chosen;
 }
 
@@ -66,7 +72,8 @@ GridMap fix_coordinates(const ChartedMesh& mesh, const MapVariables& variables,
     map.topology = build_topology(map.mesh.F, mesh.vertex_count);
     map.corner.resize(mesh.origin.size());
     map.transition.resize(mesh.origin.size());
-    map.index = Eigen::Map<const Eigen::VectorXi>(mesh.index.data(), static_cast<Eigen::Index>(mesh.index.size()));
+    map.index = Eigen::Map<const Eigen::VectorXi>(mesh.index.data(),
+                                                  static_cast<Eigen::Index>(mesh.index.size()));
 
     const auto whole = [](double value) { return std::llround(value) * GridMap::one; };
     const auto fraction = [](double value) {
@@ -75,7 +82,8 @@ GridMap fix_coordinates(const ChartedMesh& mesh, const MapVariables& variables,
     for (std::size_t h = 0; h < mesh.origin.size(); ++h) {
         map.mesh.barycentric.row(static_cast<Eigen::Index>(h)) = mesh.barycentric[h].transpose();
         if (mesh.twin[h] < 0) continue;
-        const Complex shift = corners[at(Topology::next(mesh.twin[h]))] - turn(corners[h], mesh.rotation[h]);
+        const Complex shift =
+            corners[at(Topology::next(mesh.twin[h]))] - turn(corners[h], mesh.rotation[h]);
         map.transition[h] = {mesh.rotation[h], {whole(shift.real()), whole(shift.imag())}};
     }
     const std::vector<int> first = mesh.first_half_edges();
@@ -110,22 +118,24 @@ std::string describe(const GridMapReport& report) {
         report.fractional_singularities, report.wrong_cone_angles, report.unaligned_boundary_edges);
 }
 
-/// Brings the map to the integers, refining the mesh where its triangles hold the map back, and relaxes
-/// it there. Nothing where refinement does not help.
-std::optional<Eigen::VectorXd> reach_integers(ChartedMesh& mesh, MapVariables& variables, double scale,
-                                              Eigen::VectorXd x, const Eigen::VectorXd& goal,
-                                              const Context& context) {
+/// Brings the map to the integers, refining the mesh where its triangles hold the map back, and
+/// relaxes it there. Nothing where refinement does not help.
+std::optional<Eigen::VectorXd> reach_integers(ChartedMesh& mesh, MapVariables& variables,
+                                              double scale, Eigen::VectorXd x,
+                                              const Eigen::VectorXd& goal, const Context& context) {
     for (int round = 0; round < most_refinements; ++round) {
         TriangleSystem system(variables);
         const std::vector<TargetShape> shapes = target_shapes(mesh, scale);
         Arrival arrival = bring_to_integers(variables, system, shapes, x, goal, context);
-        if (arrival.arrived) return relax_map(variables, system, shapes, arrival.x, relaxing_steps, context);
+        if (arrival.arrived)
+            return relax_map(variables, system, shapes, arrival.x, relaxing_steps, context);
         const std::vector<int> sides =
             longest_sides(mesh, variables.corner_coordinates(arrival.x), arrival.tight);
-        context.write_log(LogLevel::info,
-                          fmt::format("gridmap: {} triangles hold singularities back from the integer grid, "
-                                      "refining",
-                                      arrival.tight.size()));
+        context.write_log(
+            LogLevel::info,
+            fmt::format("gridmap: {} triangles hold singularities back from the integer grid, "
+                        "refining",
+                        arrival.tight.size()));
         if (sides.empty()) return std::nullopt;
         x = refine_map(mesh, variables, std::move(arrival.x), sides);
     }
@@ -137,13 +147,16 @@ std::optional<Eigen::VectorXd> reach_integers(ChartedMesh& mesh, MapVariables& v
 double edge_length_for(const Topology& topology, const IntrinsicMetric& metric, int vertex_count) {
     // V = chi + Q + B / 2 for Q quads with B boundary edges; Q h^2 is the area, B h the boundary.
     const double area = triangle_areas(topology, metric).sum();
-    const double interior = std::max(1, vertex_count - count_surface(topology).euler_characteristic);
+    const double interior =
+        std::max(1, vertex_count - count_surface(topology).euler_characteristic);
     const double half_boundary = boundary_length(topology, metric) / 2;
-    return (half_boundary + std::sqrt(half_boundary * half_boundary + 4 * interior * area)) / (2 * interior);
+    return (half_boundary + std::sqrt(half_boundary * half_boundary + 4 * interior * area)) /
+           (2 * interior);
 }
 
-GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric, const CrossField& field,
-                         const GridMapOptions& options, const Context& context) {
+GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric,
+                         const CrossField& field, const GridMapOptions& options,
+                         const Context& context) {
     const double edge_length = options.edge_length > 0
                                    ? options.edge_length
                                    : edge_length_for(topology, metric, options.vertex_count);
@@ -160,14 +173,16 @@ GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric
         TriangleSystem system(variables);
         const std::vector<TargetShape> shapes = target_shapes(mesh, 1);
         context.write_log(LogLevel::debug,
-                          fmt::format("gridmap: {} triangles, {} integer unknowns", mesh.triangle_count(),
-                                      variables.integer_count()));
+                          fmt::format("gridmap: {} triangles, {} integer unknowns",
+                                      mesh.triangle_count(), variables.integer_count()));
         const SeamlessMap seamless = solve_seamless_map(variables, system, shapes, context);
         const std::vector<Complex> corners = variables.corner_coordinates(seamless.x);
         if (seamless.reversed_triangles > 0) {
-            obstacle = fmt::format("{} triangles stay reversed in the seamless map", seamless.reversed_triangles);
+            obstacle = fmt::format("{} triangles stay reversed in the seamless map",
+                                   seamless.reversed_triangles);
             context.write_log(LogLevel::info, "gridmap: " + obstacle);
-            for (const int h : longest_sides(mesh, mesh.target, reversed_triangles(shapes, corners))) {
+            for (const int h :
+                 longest_sides(mesh, mesh.target, reversed_triangles(shapes, corners))) {
                 mesh.split_edge(h);
             }
             continue;
@@ -175,7 +190,8 @@ GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric
         const ConeTriangulation cone(mesh, variables, corners, seamless.integers);
         const Quantization whole =
             quantize(cone, seamless.stiffness, seamless.best_integers, quad_count, context);
-        context.write_log(LogLevel::debug, fmt::format("gridmap: {} quads at scale {:.4f}", whole.quads, whole.scale));
+        context.write_log(LogLevel::debug, fmt::format("gridmap: {} quads at scale {:.4f}",
+                                                       whole.quads, whole.scale));
         const Eigen::VectorXd goal = variables.lattice * whole.integers;
         std::optional<Eigen::VectorXd> x =
             reach_integers(mesh, variables, whole.scale, whole.scale * seamless.x, goal, context);
@@ -192,7 +208,8 @@ GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric
         obstacle = describe(report);
         context.write_log(LogLevel::info, "gridmap: " + obstacle);
     }
-    throw GridMapError("no valid grid map at this density: " + obstacle + "; ask for more vertices");
+    throw GridMapError("no valid grid map at this density: " + obstacle +
+                       "; ask for more vertices");
 }
 
 }  // namespace kinequad

@@ -4,8 +4,15 @@
 #include <vector>
 
 #include "kinequad/gridmap/map_variables.h"
+#include "kinequad/gridmap/plane_form.h"
 
 namespace kinequad {
+
+/// Areas below this many cells count as none.
+inline constexpr double least_cone_area = 1e-9;
+
+/// Twice the signed area of the triangle between two vectors of the plane.
+inline double cross_product(Complex a, Complex b) { return std::imag(std::conj(a) * b); }
 
 /// An intrinsic triangulation of the flat cone metric of a map, by its nodes alone. Every half-edge
 /// knows its displacement in the chart of its triangle, and which integer form in the unknowns y
@@ -35,31 +42,39 @@ public:
     /// Twice the area of the image of triangle `i` of the list, in cells.
     double determinant(int i) const;
     /// Derivative of `determinant(i)` by y.
-    Eigen::VectorXd determinant_gradient(int i) const;
-    /// One half-edge of every edge shorter than `length` cells.
-    std::vector<int> short_edges(double length) const;
+    LinearForm<double> determinant_gradient(int i) const;
+    /// One half-edge of every edge between nodes.
+    std::vector<int> edges() const;
     /// Length in cells of the edge of a half-edge, and its derivative by y.
     double edge_length(int half_edge) const;
-    Eigen::VectorXd edge_length_gradient(int half_edge) const;
+    LinearForm<double> edge_length_gradient(int half_edge) const;
+    /// Whether the edge of a half-edge runs from a node back to itself: around a limb, a handle or
+    /// a hole.
+    bool is_loop(int half_edge) const;
+    /// Number of edges of the boundary loop that a half-edge belongs to, 0 inside the surface.
+    int boundary_loop_size(int half_edge) const;
     /// Area of the whole map in cells: the number of quads once all is whole.
     double area() const;
 
 private:
-    using Rows = Eigen::Matrix<int, 2, Eigen::Dynamic>;
-
     bool can_flip(int h, double least) const;
     void flip(int h);
     void take_out_vertices(const MapVariables& variables, int vertex_count);
     bool take_out(int v, std::vector<int>& outgoing);
     void compact();
-    Complex rows_times(const Rows& rows, const Eigen::VectorXd& y) const;
+    double time_to_collapse(int t, const std::vector<Complex>& velocity) const;
+    void undo_flips(const std::vector<int>& flips);
+    void merge_star(const std::vector<int>& fan, bool is_open, std::vector<int>& outgoing);
+    std::vector<int> star(int start, bool& is_open) const;
+    int fattest_flip(int v, const std::vector<int>& fan) const;
 
     // Per half-edge, three a triangle.
     std::vector<int> origin_;
     std::vector<int> twin_;
     std::vector<int> rotation_;
     std::vector<Complex> displacement_;
-    std::vector<Rows> rows_;  ///< empty where the form is zero
+    std::vector<PlaneForm>
+        form_;  ///< the displacement as a form in y; zero between vertices that are no nodes
     std::vector<int> alive_;  ///< triangles in use
     std::vector<char> is_dead_;
     Eigen::VectorXd integers_;

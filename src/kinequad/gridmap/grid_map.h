@@ -14,7 +14,7 @@ struct RefinedMesh {
     int vertex_count = 0;     ///< n'; the first n are the input's vertices
     std::vector<int> parent;  ///< m': input triangle that holds a triangle
     Positions barycentric;    ///< 3m' x 3: row 3t+k, corner k of triangle t in its parent's
-                            ///< barycentric coordinates (exact at input vertices)
+                              ///< barycentric coordinates (exact at input vertices)
 };
 
 /// An integer-grid map: (u, v) at every corner of a refined mesh, so that each triangle is mapped
@@ -45,7 +45,7 @@ struct GridMap {
     std::vector<Coordinate> corner;      ///< 3m': coordinates of corner k of triangle t at 3t+k
     std::vector<Transition> transition;  ///< 3m': of half-edge h, from its triangle's chart to the
                                          ///< chart across it; identity on the boundary
-    Eigen::VectorXi index;  ///< n': singularity index in quarters
+    Eigen::VectorXi index;               ///< n': singularity index in quarters
 };
 
 /// The coordinate turned counter-clockwise by `quarters` quarter turns.

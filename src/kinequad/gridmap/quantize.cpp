@@ -46,9 +46,9 @@ private:
             const double lack = wanted_room - cone_.determinant(i);
             if (lack > 0) sum += room_weight * lack * lack;
         }
-        for (const int h : cone_.short_edges(wanted_distance)) {
-            const double lack = wanted_distance - cone_.edge_length(h);
-            sum += room_weight * lack * lack;
+        for (const int h : cone_.edges()) {
+            const double lack = wanted_length(h) - cone_.edge_length(h);
+            if (lack > 0) sum += room_weight * lack * lack;
         }
         return sum;
     }
@@ -61,16 +61,38 @@ private:
         return free;
     }
 
-    static void add_residual(double lack, const Eigen::VectorXd& gradient, Eigen::MatrixXd& matrix,
+    /// Length the edge of a half-edge should keep. Around a limb or a hole there have to be cells
+    /// enough for a quad mesh: no two edges between the same two vertices, an even number on the
+    /// boundary.
+    double wanted_length(int h) const {
+        const int boundary = cone_.boundary_loop_size(h);
+        if (boundary > 0 && boundary < 3) return 4.0 / boundary + 0.2;
+        return cone_.is_loop(h) ? 3.2 : wanted_distance;
+    }
+
+    /// Adds the square of `lack - gradient * step` to the normal equations over the unknowns that
+    /// have a `place`.
+    static void add_residual(double lack, const LinearForm<double>& gradient,
+                             const std::vector<int>& place, Eigen::MatrixXd& matrix,
                              Eigen::VectorXd& right) {
-        matrix.selfadjointView<Eigen::Lower>().rankUpdate(gradient, room_weight);
-        right += room_weight * lack * gradient;
+        for (const auto& [i, gi] : gradient) {
+            const int row = place[static_cast<std::size_t>(i)];
+            if (row < 0) continue;
+            right[row] += room_weight * lack * gi;
+            for (const auto& [j, gj] : gradient) {
+                const int column = place[static_cast<std::size_t>(j)];
+                if (column >= 0 && column <= row) matrix(row, column) += room_weight * gi * gj;
+            }
+        }
     }
 
     /// Gauss-Newton steps on `energy` over the unknowns that are not fixed.
     void make_room(int most_steps) {
         const std::vector<int> free = free_unknowns();
         if (free.empty()) return;
+        std::vector<int> place(is_fixed_.size(), -1);
+        for (std::size_t i = 0; i < free.size(); ++i)
+            place[static_cast<std::size_t>(free[i])] = static_cast<int>(i);
         double before = energy();
         for (int i = 0; i < most_steps; ++i) {
             context_.check_cancelled();
@@ -78,13 +100,16 @@ private:
             Eigen::VectorXd right = (stiffness_ * (best_ - cone_.integers()))(free);
             for (int t = 0; t < cone_.triangle_count(); ++t) {
                 const double lack = wanted_room - cone_.determinant(t);
-                if (lack > 0) add_residual(lack, cone_.determinant_gradient(t)(free), matrix, right);
+                if (lack > 0)
+                    add_residual(lack, cone_.determinant_gradient(t), place, matrix, right);
             }
-            for (const int h : cone_.short_edges(wanted_distance)) {
-                add_residual(wanted_distance - cone_.edge_length(h), cone_.edge_length_gradient(h)(free),
-                             matrix, right);
+            for (const int h : cone_.edges()) {
+                const double lack = wanted_length(h) - cone_.edge_length(h);
+                if (lack > 0)
+                    add_residual(lack, cone_.edge_length_gradient(h), place, matrix, right);
             }
-            const Eigen::VectorXd direction = matrix.selfadjointView<Eigen::Lower>().llt().solve(right);
+            const Eigen::VectorXd direction =
+                matrix.selfadjointView<Eigen::Lower>().llt().solve(right);
             bool moved = false;
             for (double length = 1; length > 0.05; length /= 2) {
                 Eigen::VectorXd step = Eigen::VectorXd::Zero(best_.size());
@@ -96,7 +121,11 @@ private:
                     before = after;
                     break;
                 }
-                cone_.move(-step);
+                // Where the way back is blocked the step stays.
+                if (!cone_.move(-step)) {
+                    before = after;
+                    break;
+                }
             }
             if (!moved) return;
         }
@@ -104,7 +133,8 @@ private:
 
     bool round_all() {
         const auto count = best_.size();
-        Eigen::MatrixXd compliance = stiffness_.llt().solve(Eigen::MatrixXd::Identity(count, count));
+        Eigen::MatrixXd compliance =
+            stiffness_.llt().solve(Eigen::MatrixXd::Identity(count, count));
         std::vector<char> deferred(static_cast<std::size_t>(count), 0);
         int since_room = 0;
         int patience = 3;
@@ -138,7 +168,8 @@ private:
         int best = -1;
         double least = std::numeric_limits<double>::infinity();
         for (int i = 0; i < best_.size(); ++i) {
-            if (is_fixed_[static_cast<std::size_t>(i)] || deferred[static_cast<std::size_t>(i)]) continue;
+            if (is_fixed_[static_cast<std::size_t>(i)] || deferred[static_cast<std::size_t>(i)])
+                continue;
             const double value = cone_.integers()[i];
             const double delta = std::round(value) - value;
             const double cost = delta * delta / compliance(i, i);
@@ -158,7 +189,8 @@ private:
         const double beyond = nearest > value ? nearest + 1 : nearest - 1;
         for (const double whole : {nearest, other, beyond}) {
             for (const double follow : {1.0, 0.5, 0.0}) {
-                Eigen::VectorXd step = compliance.col(i) * (follow * (whole - value) / compliance(i, i));
+                Eigen::VectorXd step =
+                    compliance.col(i) * (follow * (whole - value) / compliance(i, i));
                 for (int j = 0; j < step.size(); ++j) {
                     if (is_fixed_[static_cast<std::size_t>(j)]) step[j] = 0;
                 }
@@ -186,7 +218,8 @@ private:
             for (int i = 0; i < count; ++i) {
                 for (int side = 0; side < 2; ++side) {
                     if (blocked[static_cast<std::size_t>(2 * i + side)]) continue;
-                    const double change = (side == 0 ? gradient[i] : -gradient[i]) + stiffness_(i, i);
+                    const double change =
+                        (side == 0 ? gradient[i] : -gradient[i]) + stiffness_(i, i);
                     if (change < gain) {
                         gain = change;
                         choice = 2 * i + side;
@@ -204,7 +237,7 @@ private:
                     snap_to_whole();
                     continue;
                 }
-                cone_.move(-step);
+                if (!cone_.move(-step)) before = after;
                 snap_to_whole();
             }
             blocked[static_cast<std::size_t>(choice)] = 1;
@@ -233,8 +266,9 @@ Quantization quantize(const ConeTriangulation& cone, const Eigen::MatrixXd& stif
         Rounding rounding(std::move(scaled), stiffness, scale * best, context);
         const std::optional<Eigen::VectorXd> integers = rounding.run();
         if (!integers) {
-            context.write_log(LogLevel::info,
-                              fmt::format("gridmap: cones block each other at scale {:.3f}", scale));
+            context.write_log(
+                LogLevel::info,
+                fmt::format("gridmap: cones block each other at scale {:.3f}", scale));
             scale *= failures < 2 ? (failures == 0 ? 1.02 : 0.96) : 1.15;
             ++failures;
             continue;
@@ -246,7 +280,8 @@ Quantization quantize(const ConeTriangulation& cone, const Eigen::MatrixXd& stif
         scale *= std::sqrt(quad_count / found.quads);
     }
     if (!closest) {
-        throw GridMapError("the singularities find no room on the integer grid; ask for more vertices");
+        throw GridMapError(
+            "the singularities find no room on the integer grid; ask for more vertices");
     }
     return *closest;
 }

@@ -19,13 +19,13 @@ constexpr double least_curvature = 1e-3;
 /// Diagonal that keeps a column where it is.
 constexpr double pinned = 1e12;
 
-/// `|J - 1|^2 + 2 (turn_weight - 1) (Im a)^2 + 2 (shear_weight - 1) (Im b)^2 + barrier ((|J|^2 + 1) / det + det - 4)` of `f(q) = a q + b conj(q)`, with its first and
-/// second derivative, the latter made positive. With the singular values s1 = |a| + |b| and
-/// s2 = |a| - |b| the Hessian splits into the radial directions of a and b, which mix, and their
-/// tangential directions, which do not.
+/// `|J - 1|^2 + 2 (turn_weight - 1) (Im a)^2 + 2 (shear_weight - 1) (Im b)^2 + barrier ((|J|^2 + 1)
+/// / det + det - 4)` of `f(q) = a q + b conj(q)`, with its first and second derivative, the latter
+/// made positive. With the singular values s1 = |a| + |b| and s2 = |a| - |b| the Hessian splits
+/// into the radial directions of a and b, which mix, and their tangential directions, which do not.
 struct LocalEnergy {
     double value = std::numeric_limits<double>::infinity();
-    Complex slope_a, slope_b;        // d value / d a as (d/d Re, d/d Im)
+    Complex slope_a, slope_b;  // d value / d a as (d/d Re, d/d Im)
     double radial_aa = 0, radial_ab = 0, radial_bb = 0;
     double tangential_a = 0, tangential_b = 0;
     Complex unit_a, unit_b;
@@ -89,8 +89,8 @@ LocalEnergy local_energy(Complex a, Complex b) {
 
 class Newton {
 public:
-    Newton(const MapVariables& variables, TriangleSystem& system, const std::vector<TargetShape>& shapes,
-           const Context& context)
+    Newton(const MapVariables& variables, TriangleSystem& system,
+           const std::vector<TargetShape>& shapes, const Context& context)
         : variables_(variables), system_(system), shapes_(shapes), context_(context) {}
 
     /// The pull towards `goal` (chain columns); weight 0 pins the chain columns instead.
@@ -119,12 +119,16 @@ public:
                                     shapes_[t].anticonformal_part(&corners[3 * t]));
         }
         SparseMatrix hessian = system_.assemble(
-            [&](int t) { return hessian_of(shapes_[static_cast<std::size_t>(t)], local[static_cast<std::size_t>(t)]); },
+            [&](int t) {
+                return hessian_of(shapes_[static_cast<std::size_t>(t)],
+                                  local[static_cast<std::size_t>(t)]);
+            },
             2 * weight_);
         Eigen::VectorXd gradient = system_.gather([&](int t) -> Vector6 {
             const TargetShape& shape = shapes_[static_cast<std::size_t>(t)];
             const LocalEnergy& e = local[static_cast<std::size_t>(t)];
-            return shape.area * (shape.functional(e.slope_a, false) + shape.functional(e.slope_b, true));
+            return shape.area *
+                   (shape.functional(e.slope_a, false) + shape.functional(e.slope_b, true));
         });
         if (weight_ > 0) {
             const Eigen::VectorXd away = whole_values(chain(x)) - whole_goal_;
@@ -157,7 +161,8 @@ public:
         const double slope = gradient.dot(direction);
         if (!(slope < 0)) return 0;
         const double before = energy(x);
-        for (double length = std::min(1.0, 0.9 * longest_step(corners, direction)); length > 1e-6; length /= 2) {
+        for (double length = std::min(1.0, 0.9 * longest_step(corners, direction)); length > 1e-6;
+             length /= 2) {
             const Eigen::VectorXd candidate = x + length * direction;
             if (energy(candidate) <= before + 1e-4 * length * slope) {
                 x = candidate;
@@ -167,15 +172,18 @@ public:
         return 0;
     }
 
-    Eigen::VectorXd chain(const Eigen::VectorXd& x) const { return x.tail(variables_.chain_columns); }
+    Eigen::VectorXd chain(const Eigen::VectorXd& x) const {
+        return x.tail(variables_.chain_columns);
+    }
 
     /// Triangles whose area vanishes first along the last direction.
     const std::vector<int>& tight() const { return tight_; }
 
-    /// Whether every triangle keeps a positive area all the way from `x` to `end`: its end alone could
-    /// hide a cone that has been turned once too often.
+    /// Whether every triangle keeps a positive area all the way from `x` to `end`: its end alone
+    /// could hide a cone that has been turned once too often.
     bool can_go_straight(const Eigen::VectorXd& x, const Eigen::VectorXd& end) {
-        return longest_step(variables_.corner_coordinates(x), end - x) > 1 && std::isfinite(energy(end));
+        return longest_step(variables_.corner_coordinates(x), end - x) > 1 &&
+               std::isfinite(energy(end));
     }
 
     /// Positions, then the chain columns themselves.
@@ -262,9 +270,10 @@ Arrival bring_to_integers(const MapVariables& variables, TriangleSystem& system,
         newton.set_pull(weight, goal);
         const double length = newton.step(x);
         const double away = (newton.chain(x) - goal).cwiseAbs().maxCoeff();
-        context.write_log(LogLevel::debug,
-                          fmt::format("gridmap: step {} of length {:.3f}, pull {:.3g}, {:.2e} to go, {} tight",
-                                      i, length, weight, away, newton.tight().size()));
+        context.write_log(
+            LogLevel::debug,
+            fmt::format("gridmap: step {} of length {:.3f}, pull {:.3g}, {:.2e} to go, {} tight", i,
+                        length, weight, away, newton.tight().size()));
         Eigen::VectorXd snapped = x;
         snapped.tail(variables.chain_columns) = goal;
         if (newton.can_go_straight(x, snapped)) {

@@ -74,8 +74,9 @@ public:
         const Eigen::VectorXd right = system_.gather([&](int t) -> Vector6 {
             const TargetShape& shape = shapes_[static_cast<std::size_t>(t)];
             const auto& [a, b] = parts[static_cast<std::size_t>(t)];
-            return 4 * shape.area * (shape.functional({a.real(), turn_weight * a.imag()}, false) +
-                                     shape.functional({b.real(), shear_weight * b.imag()}, true));
+            return 4 * shape.area *
+                   (shape.functional({a.real(), turn_weight * a.imag()}, false) +
+                    shape.functional({b.real(), shear_weight * b.imag()}, true));
         });
         return order_.transpose() * factor_.solve(order_ * right).eval();
     }

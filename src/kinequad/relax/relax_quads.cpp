@@ -33,20 +33,21 @@ std::vector<SampledFrame> sample_frames(const FrameSource& source, const RelaxOp
     return sampled;
 }
 
-/// Opens folded quads; where the nearest vertices do not do it, ever more of them move. Returns the number
-/// that stays folded.
+/// Opens folded quads; where the nearest vertices do not do it, ever more of them move. Returns the
+/// number that stays folded.
 int unfold(SlidingQuads& sliding, int most_passes, const Context& context) {
     int folded = 0;
     for (int pass = 0; pass < most_passes; ++pass) {
-        folded = sliding.unfold_pass(pass < releasing_pass ? safe_jacobian : least_jacobian, pass / 3, context);
+        folded = sliding.unfold_pass(pass < releasing_pass ? safe_jacobian : least_jacobian,
+                                     pass / 3, context);
         if (folded == 0 && pass > 0) break;
     }
     return folded;
 }
 
-/// Alternates what keeps quads unfolded and what keeps the two surfaces together, which are at odds in creases
-/// and on tips, and ends with the best state seen: least folded, then closest. Returns the number of quads that
-/// stay folded.
+/// Alternates what keeps quads unfolded and what keeps the two surfaces together, which are at odds
+/// in creases and on tips, and ends with the best state seen: least folded, then closest. Returns
+/// the number of quads that stay folded.
 int fit(SlidingQuads& sliding, double limit, const ClosestPoints& surface, const Context& context) {
     struct State {
         int folded = 0;
@@ -58,7 +59,8 @@ int fit(SlidingQuads& sliding, double limit, const ClosestPoints& surface, const
     };
     unfold(sliding, releasing_pass, context);
     State best = look();
-    for (int round = 0; round < fitting_rounds && (best.folded > 0 || best.distance > limit); ++round) {
+    for (int round = 0; round < fitting_rounds && (best.folded > 0 || best.distance > limit);
+         ++round) {
         // Every other round starts from the best state with all vertices free.
         if (round % 2 == 1) sliding.restore(best.quads);
         sliding.hug_surface(limit, 1 + round / 2, surface, context);
@@ -67,7 +69,8 @@ int fit(SlidingQuads& sliding, double limit, const ClosestPoints& surface, const
         if (is_last_resort) sliding.release();
         unfold(sliding, is_last_resort ? most_unfolding_passes : releasing_pass, context);
         State now = look();
-        const bool is_better = now.folded != best.folded ? now.folded < best.folded : now.distance < best.distance;
+        const bool is_better =
+            now.folded != best.folded ? now.folded < best.folded : now.distance < best.distance;
         if (is_better) best = std::move(now);
     }
     sliding.restore(best.quads);

@@ -175,7 +175,8 @@ bool SlidingQuads::improve(int v, double distance_limit, const ClosestPoints& su
     const double allowed = std::max(distance_limit, watched_distance(v, surface));
     for (const double length : {1.0, 0.4}) {
         place(v, trace_geodesic(topology_, metric_, before, length * move));
-        if (cost_around(v, relaxing_barrier) < cost_before && watched_distance(v, surface) <= allowed) {
+        if (cost_around(v, relaxing_barrier) < cost_before &&
+            watched_distance(v, surface) <= allowed) {
             return true;
         }
     }
@@ -183,7 +184,8 @@ bool SlidingQuads::improve(int v, double distance_limit, const ClosestPoints& su
     return false;
 }
 
-int SlidingQuads::relax_pass(double distance_limit, const ClosestPoints& surface, const Context& context) {
+int SlidingQuads::relax_pass(double distance_limit, const ClosestPoints& surface,
+                             const Context& context) {
     // Distances are slow: they are asked for only where quads are about to leave the surface.
     is_watched_.resize(at(static_cast<int>(quads_.Q.rows())));
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
@@ -245,7 +247,8 @@ int SlidingQuads::unfold_pass(double safe_jacobian, int reach, const Context& co
     const auto cost = [&](int v) {
         double sum = 0.1 * cost_around(v, relaxing_barrier);
         for (const int c : corners_of(v)) {
-            sum += static_cast<double>(frames_.size()) * quad_cost(corners_in(frames_[0], c / 4), barrier);
+            sum += static_cast<double>(frames_.size()) *
+                   quad_cost(corners_in(frames_[0], c / 4), barrier);
         }
         return sum;
     };

@@ -28,17 +28,17 @@ public:
 
     /// Moves every vertex once towards the squares that fit the quads around it best, where that
     /// lowers their cost over all frames. Returns the number of moves.
-    /// No move takes a quad farther than `distance_limit` (units of the input) from `surface`, the input in
-    /// the reference frame.
+    /// No move takes a quad farther than `distance_limit` (units of the input) from `surface`, the
+    /// input in the reference frame.
     int relax_pass(double distance_limit, const ClosestPoints& surface, const Context& context);
 
-    /// Tries moves of the vertices up to `reach` quads around every quad whose scaled Jacobian in the
-    /// reference frame is below `safe_jacobian`, and keeps what opens it. Returns the number of quads still
-    /// folded there.
+    /// Tries moves of the vertices up to `reach` quads around every quad whose scaled Jacobian in
+    /// the reference frame is below `safe_jacobian`, and keeps what opens it. Returns the number of
+    /// quads still folded there.
     int unfold_pass(double safe_jacobian, int reach, const Context& context);
 
-    /// Largest distance between the two surfaces in the reference frame, in units of the input, seen from the
-    /// middles of quads and edges and from the vertices of the input.
+    /// Largest distance between the two surfaces in the reference frame, in units of the input,
+    /// seen from the middles of quads and edges and from the vertices of the input.
     double largest_distance(const ClosestPoints& surface) const;
 
     /// Number of quads folded in the reference frame.
@@ -55,10 +55,10 @@ public:
     /// before. Returns the number of vertices put in place.
     int cover_extremities(double limit, const Context& context);
 
-    /// Tries moves of the vertices up to `reach` quads around quads whose middle or edges leave the surface by more
-    /// than `limit` (units of the input) in the reference frame, as where they bridge a crease, and
-    /// keeps what brings them closer. `surface` is the input there. Returns the number of quads
-    /// that stay farther away.
+    /// Tries moves of the vertices up to `reach` quads around quads whose middle or edges leave the
+    /// surface by more than `limit` (units of the input) in the reference frame, as where they
+    /// bridge a crease, and keeps what brings them closer. `surface` is the input there. Returns
+    /// the number of quads that stay farther away.
     int hug_surface(double limit, int reach, const ClosestPoints& surface, const Context& context);
 
     /// Positions (n x 3) of the input in the reference frame.

@@ -181,6 +181,43 @@ TEST(CrossField, LeavesEveryVertexAnAngle) {
     }
 }
 
+TEST(CrossField, TakesSingularitiesOfSeveralQuartersApart) {
+    // Two squares sewn up along their sides: the field without energy has +2 at each corner, where
+    // two quads would share two edges.
+    const int n = 8;
+    const TriangleMesh front = test::square(n);
+    const auto inside = [](int i) { return i > 0 && i < n; };
+    std::vector<int> back(static_cast<std::size_t>((n + 1) * (n + 1)));
+    int count = (n + 1) * (n + 1);
+    for (int i = 0; i <= n; ++i) {
+        for (int j = 0; j <= n; ++j) {
+            const int v = i * (n + 1) + j;
+            back[static_cast<std::size_t>(v)] = inside(i) && inside(j) ? count++ : v;
+        }
+    }
+    TriangleMesh pillow{Positions(count, 3), Triangles(2 * front.F.rows(), 3)};
+    for (std::size_t v = 0; v < back.size(); ++v) {
+        pillow.V.row(static_cast<Eigen::Index>(v)) = front.V.row(static_cast<Eigen::Index>(v));
+        pillow.V.row(back[v]) = front.V.row(static_cast<Eigen::Index>(v));
+    }
+    pillow.F.topRows(front.F.rows()) = front.F;
+    // Turned by a quarter: no diagonal of the back joins the same corners' neighbours as one in
+    // front.
+    const auto turned = [](int v) { return v % (n + 1) * (n + 1) + n - v / (n + 1); };
+    for (Eigen::Index t = 0; t < front.F.rows(); ++t) {
+        for (int k = 0; k < 3; ++k) {
+            const int v = turned(front.F(t, 2 - k));
+            pillow.F(front.F.rows() + t, k) = back[static_cast<std::size_t>(v)];
+        }
+    }
+    for (const double edge_length : {0.0, 0.05, 0.2}) {
+        const CrossField field = field_of(surface_of(pillow), {}, {.edge_length = edge_length});
+        EXPECT_EQ(count_singular(field), 8) << edge_length;
+        EXPECT_EQ(field.index.maxCoeff(), 1) << edge_length;
+        EXPECT_EQ(field.index.minCoeff(), 0) << edge_length;
+    }
+}
+
 TEST(CrossField, WithDearerSingularitiesHasFewer) {
     const Surface sphere = surface_of(test::sphere(3));
     const CrossFieldTargets targets = random_targets(sphere.topology, 6, 1);

@@ -17,8 +17,6 @@ using test::surface_of;
 DeformationTensors two_triangles() {
     DeformationTensors tensors;
     tensors.frame_count = 4;
-    tensors.shear.resize(2);
-    tensors.shear << Complex(0.3, 0), Complex(0, -0.1);
     tensors.curvature.resize(2);
     tensors.curvature << Complex(0, 0.4), Complex(0, 0);
     tensors.stretch_direction_sum.resize(2);
@@ -33,15 +31,31 @@ CrossFieldTargets targets_of(const CrossFieldTargetOptions& options) {
     return compute_cross_field_targets(square.topology, square.metric, two_triangles(), options);
 }
 
-TEST(CrossFieldTargets, AreShearAndCurvatureInTheirProportions) {
+TEST(CrossFieldTargets, AreBoundedStretchAndCurvatureInTheirProportions) {
     const CrossFieldTargets targets =
-        targets_of({.alpha = 0.2, .curvature_weight = 0.1, .edge_length = 0.5});
-    const Complex first(0.06, 0.04);
+        targets_of({.alpha = 0.7, .curvature_weight = 0.1, .edge_length = 0.5});
+    // The mean stretches over four frames are 3i/4 and -1/4, bounded 3i/7 and -1/5.
+    const Complex first(0, 0.3 + 0.04);
     // Area 1/2, edge length 1/2: four times two.
     EXPECT_NEAR(targets.weight[0], 8 * std::abs(first), 1e-12);
     EXPECT_NEAR(std::abs(targets.value[0] - first / std::abs(first)), 0, 1e-12);
-    EXPECT_NEAR(targets.weight[1], 8 * 0.02, 1e-12);
-    EXPECT_NEAR(std::abs(targets.value[1] - Complex(0, -1)), 0, 1e-12);
+    EXPECT_NEAR(targets.weight[1], 8 * 0.7 / 5, 1e-12);
+    EXPECT_NEAR(std::abs(targets.value[1] - Complex(-1, 0)), 0, 1e-12);
+}
+
+TEST(CrossFieldTargets, GrowWithTheStretchButNotBeyondAlpha) {
+    const Surface square = surface_of(test::square(1));
+    DeformationTensors tensors;
+    tensors.frame_count = 1;
+    double last = 0;
+    for (const double stretch : {0.1, 1.0, 10.0, 1e6}) {
+        tensors.stretch_direction_sum = Eigen::VectorXcd::Constant(2, Complex(0, stretch));
+        const CrossFieldTargets targets = compute_cross_field_targets(
+            square.topology, square.metric, tensors, {.alpha = 0.5, .edge_length = 1});
+        EXPECT_GT(targets.weight[0], last);
+        last = targets.weight[0];
+    }
+    EXPECT_NEAR(last, 4 * 0.5 * 0.5, 1e-5);  // area 1/2, alpha 1/2
 }
 
 TEST(CrossFieldTargets, AtAlphaZeroKnowNothingOfTheAnimation) {
@@ -68,11 +82,14 @@ TEST(CrossFieldTargets, WeighTheSameOverallOnAFinerMesh) {
     const auto total = [](int n) {
         const Surface square = surface_of(test::square(n));
         DeformationTensors tensors;
-        tensors.shear = Eigen::VectorXcd::Constant(square.topology.triangle_count, 0.3);
+        tensors.frame_count = 2;
+        tensors.stretch_direction_sum =
+            Eigen::VectorXcd::Constant(square.topology.triangle_count, 0.6);
         return compute_cross_field_targets(square.topology, square.metric, tensors,
                                            {.edge_length = 0.1})
             .weight.sum();
     };
+    EXPECT_GT(total(3), 1);
     EXPECT_NEAR(total(3), total(20), 1e-9);
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <queue>
@@ -13,6 +14,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int largest_rounds = 10;
 constexpr std::size_t partners = 2;
+/// Vertices around a crowded one that are tried for one of its quarters.
+constexpr std::size_t places = 24;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -22,8 +25,8 @@ struct PathStep {
 };
 
 struct Candidate {
-    int from = 0;  ///< negative singularity
-    int to = 0;    ///< positive one
+    int from = 0;  ///< its index rises by one
+    int to = 0;    ///< its index falls by one
     std::vector<PathStep> path;
     double stiffness = 0;  ///< energy of the change itself, the angles re-solved
     double gain = 0;
@@ -54,8 +57,8 @@ VertexEdges list_vertex_edges(const FieldProblem& problem) {
     return list;
 }
 
-/// Shortest paths over the mesh from one negative singularity to the nearest positive ones; steps
-/// that the field already leans to are short.
+/// Shortest paths over the mesh from one singularity to places for a quarter of it; steps that the
+/// field already leans to are short.
 class PathFinder {
 public:
     explicit PathFinder(const FieldProblem& problem)
@@ -64,23 +67,29 @@ public:
           distance_(at(problem.vertex_count), std::numeric_limits<double>::infinity()),
           arrival_(at(problem.vertex_count)) {}
 
-    std::vector<Candidate> find(const SolvedField& field, int from) {
+    /// From `start`, whose index changes by `sign`, to the nearest `wanted` vertices that `accept`.
+    template <typename Accept>
+    std::vector<Candidate> find(const SolvedField& field, int start, int sign, std::size_t wanted,
+                                const Accept& accept) {
         std::vector<Candidate> found;
-        std::vector<int> reached = {from};
+        std::vector<int> reached = {start};
         std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>,
                             std::greater<>>
             queue;
-        distance_[at(from)] = 0;
-        queue.emplace(0, from);
-        while (!queue.empty() && found.size() < partners) {
+        distance_[at(start)] = 0;
+        queue.emplace(0, start);
+        while (!queue.empty() && found.size() < wanted) {
             const auto [distance, v] = queue.top();
             queue.pop();
             if (distance > distance_[at(v)]) continue;
-            if (field.index[v] > 0) found.push_back({from, v, trace(from, v), 0, 0});
+            if (v != start && accept(v)) {
+                const auto [from, to] = sign > 0 ? std::pair(start, v) : std::pair(v, start);
+                found.push_back({from, to, trace(start, v, sign), 0, 0});
+            }
             for (int i = edges_.first[at(v)]; i < edges_.first[at(v) + 1]; ++i) {
                 const int e = edges_.edge[at(i)];
                 const bool forward = problem_.tail[at(e)] == v;
-                const int change = forward ? 1 : -1;
+                const int change = forward ? sign : -sign;
                 const int next = forward ? problem_.head[at(e)] : problem_.tail[at(e)];
                 const double length = std::max(0.1, 1 + 2 * change * field.residual[e]);
                 if (distance + length >= distance_[at(next)]) continue;
@@ -96,13 +105,30 @@ public:
         return found;
     }
 
+    /// To the positive singularities nearest to a negative one; from one of several quarters also
+    /// to the regular vertices around it.
+    std::vector<Candidate> find_moves(const SolvedField& field, int v) {
+        std::vector<Candidate> moves;
+        const int index = field.index[v];
+        if (index < 0) {
+            moves = find(field, v, 1, partners, [&](int u) { return field.index[u] > 0; });
+        }
+        if (std::abs(index) >= 2) {
+            for (Candidate& move : find(field, v, index < 0 ? 1 : -1, places,
+                                        [&](int u) { return field.index[u] == 0; })) {
+                moves.push_back(std::move(move));
+            }
+        }
+        return moves;
+    }
+
 private:
-    std::vector<PathStep> trace(int from, int to) const {
+    std::vector<PathStep> trace(int start, int end, int sign) const {
         std::vector<PathStep> path;
-        for (int v = to; v != from;) {
+        for (int v = end; v != start;) {
             const PathStep& step = arrival_[at(v)];
             path.push_back(step);
-            v = step.change > 0 ? problem_.tail[at(step.edge)] : problem_.head[at(step.edge)];
+            v = step.change == sign ? problem_.tail[at(step.edge)] : problem_.head[at(step.edge)];
         }
         return path;
     }
@@ -152,9 +178,9 @@ SolvedField cancel_pairs(const FieldProblem& problem, const AngleSolver& solver,
     for (int round = 0; round < largest_rounds; ++round) {
         std::vector<Candidate> candidates;
         for (int v = 0; v < problem.vertex_count; ++v) {
-            if (field.index[v] >= 0) continue;
+            if (field.index[v] == 0) continue;
             context.check_cancelled();
-            for (Candidate& candidate : finder.find(field, v)) {
+            for (Candidate& candidate : finder.find_moves(field, v)) {
                 candidate.stiffness = least_stiffness(candidate.path.size());
                 if (gain_of(price, field, candidate) >= 0) continue;
                 candidate.stiffness = stiffness_of(problem, solver, candidate.path);
@@ -166,7 +192,6 @@ SolvedField cancel_pairs(const FieldProblem& problem, const AngleSolver& solver,
                          [](const Candidate& x, const Candidate& y) { return x.gain < y.gain; });
         bool improved = false;
         for (const Candidate& candidate : candidates) {
-            if (field.index[candidate.from] >= 0 || field.index[candidate.to] <= 0) continue;
             if (gain_of(price, field, candidate) >= 0) continue;
             FieldState state = field.state;
             for (const PathStep& step : candidate.path) {

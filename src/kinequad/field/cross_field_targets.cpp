@@ -23,16 +23,17 @@ void check(const CrossFieldTargetOptions& options, const DeformationTensors& ten
             "the stretch of full weight must be positive");
     require(paper || options.edge_length > 0, InputFault::usage,
             "the wanted edge length must be positive");
-    KQ_DEBUG_ASSERT(tensors.shear.size() == topology.triangle_count);
+    KQ_DEBUG_ASSERT(tensors.stretch_direction_sum.size() == topology.triangle_count);
     static_cast<void>(tensors);
     static_cast<void>(topology);
 }
 
-/// Mean stretch over the frames, its modulus bounded by 1: doubling a small stretch doubles what it asks for,
-/// doubling a large one hardly does.
+/// Mean stretch over the frames, its modulus bounded by 1: doubling a small stretch doubles what it
+/// asks for, doubling a large one hardly does.
 Complex bounded_stretch(const DeformationTensors& tensors, Eigen::Index t) {
     if (tensors.frame_count == 0) return 0;
-    const Complex mean = tensors.stretch_direction_sum[t] / static_cast<double>(tensors.frame_count);
+    const Complex mean =
+        tensors.stretch_direction_sum[t] / static_cast<double>(tensors.frame_count);
     return mean / (1 + std::abs(mean));
 }
 

@@ -16,8 +16,8 @@ struct CrossFieldTargets {
 /// How deformation becomes targets. docs/field.md
 struct CrossFieldTargetOptions {
     CrossFieldMethod method = CrossFieldMethod::convex;
-    /// Influence of the animation, 0 for none. `convex`: the factor of the bounded stretch; `paper`: the
-    /// alpha of energy (9), in [0, 1). See `default_alpha`.
+    /// Influence of the animation, 0 for none. `convex`: the factor of the bounded stretch;
+    /// `paper`: the alpha of energy (9), in [0, 1). See `default_alpha`.
     double alpha = default_alpha(CrossFieldMethod::convex);
     double curvature_weight = 0.1;  ///< factor of the curvature (`convex` only)
     /// Wanted edge length of the quads, in units of the input: areas are measured in its square, so
@@ -27,10 +27,10 @@ struct CrossFieldTargetOptions {
 };
 
 /// Turns what the animation does to every triangle into targets of the cross field: for `convex`
-/// `G = alpha S / (1 + |S|) + curvature_weight curvature`, `S` the mean stretch, weighted by `4 A |G| / edge_length^2`; for
-/// `paper` equations (7) and (8) of Du and Tu with weight `alpha / (1 - alpha) min(1, s /
-/// largest_stretch)`. docs/field.md Throws `InputError` (usage) where an option is out of its
-/// range.
+/// `G = alpha S / (1 + |S|) + curvature_weight curvature`, `S` the mean stretch, weighted by `4 A
+/// |G| / edge_length^2`; for `paper` equations (7) and (8) of Du and Tu with weight `alpha / (1 -
+/// alpha) min(1, s / largest_stretch)`. docs/field.md Throws `InputError` (usage) where an option
+/// is out of its range.
 CrossFieldTargets compute_cross_field_targets(const Topology& topology,
                                               const IntrinsicMetric& metric,
                                               const DeformationTensors& tensors,

@@ -79,12 +79,17 @@ SingularityPrice::SingularityPrice(const FieldProblem& problem, const Topology& 
 }
 
 double SingularityPrice::vertex_price(int vertex, int index) const {
+    const bool boundary = boundary_[at(vertex)];
+    double price = singularity_cost_ * std::abs(index);
+    // Several singularities in one place have even less room than two that an edge joins. On the
+    // boundary -2 is the tip of a slit, and positive indices run out of angle below.
+    const int crowd = boundary ? -1 - index : std::abs(index);
+    if (crowd >= 2) price += 2 * (singularity_cost_ + adjacency_cost_ * (crowd - 1));
     // A map needs a positive angle (4 - index quarters, on the boundary 2 - index) at every vertex;
     // the prices of what has none, or nearly none, outweigh any energy.
-    const int angle = (boundary_[at(vertex)] ? 2 : 4) - index;
-    double price = singularity_cost_ * std::abs(index);
+    const int angle = (boundary ? 2 : 4) - index;
     if (angle <= 0) price += 1e3 * (1 - angle);
-    if (angle == 1 && !boundary_[at(vertex)]) price += 10;
+    if (angle == 1 && !boundary) price += 10;
     if (index < -4) price += 10 * (-4 - index);
     return price;
 }

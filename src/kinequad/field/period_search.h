@@ -54,7 +54,8 @@ SolvedField improve_periods(const FieldProblem& problem, const AngleSolver& solv
                             const SingularityPrice& price, SolvedField field,
                             const Context& context);
 
-/// Cancels negative singularities against near positive ones where that lowers the cost.
+/// Cancels negative singularities against near positive ones, and takes those of several quarters
+/// apart, where that lowers the cost.
 SolvedField cancel_pairs(const FieldProblem& problem, const AngleSolver& solver,
                          const SingularityPrice& price, SolvedField field, const Context& context);
 

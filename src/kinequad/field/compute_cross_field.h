@@ -22,7 +22,8 @@ struct CrossFieldOptions {
     /// moved, made and cancelled (`convex` only).
     double singularity_cost = 0.08;
     /// What each mesh edge that joins two singularities costs beside, in squared radians:
-    /// integer-grid maps have no room there (`convex` only).
+    /// integer-grid maps have no room there; twice that for each quarter beyond the first of one
+    /// vertex (`convex` only).
     double adjacency_cost = 0.5;
     /// Wanted edge length of the quads, in units of the input: bumps smaller than it are smoothed
     /// out of the connection before singularities are placed; 0 leaves the connection as it is

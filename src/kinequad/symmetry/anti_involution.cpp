@@ -13,20 +13,29 @@ using Matrix4 = Eigen::Matrix4d;
 
 RealVector3 row_of(const SpherePoints& points, int i) { return points.row(i).transpose(); }
 
-void add_row(Matrix4& normal, const Vector4& row) { normal += row * row.transpose(); }
+/// Normal equations, and those of the same rows at unit length.
+struct NormalEquations {
+    Matrix4 sum = Matrix4::Zero();
+    Matrix4 directions = Matrix4::Zero();
+
+    void add(const Vector4& row) {
+        sum += row * row.transpose();
+        directions += row.normalized() * row.normalized().transpose();
+    }
+};
 
 /// Equations in (s, n0) that a reflection meets which swaps p and q; they have the same size
 /// wherever the points lie, and whatever Moebius transformation moved them.
-void add_pair(Matrix4& normal, const RealVector3& p, const RealVector3& q) {
+void add_pair(NormalEquations& normal, const RealVector3& p, const RealVector3& q) {
     const RealVector3 cross = p.cross(q);
     const double sine = static_cast<double>(cross.norm());
     // Two points in one place or opposite of each other say nothing.
     if (sine < 1e-14) return;
     const Vector3 axis = cross.cast<double>() / sine;
-    add_row(normal, Vector4(axis[0], axis[1], axis[2], 0));
+    normal.add(Vector4(axis[0], axis[1], axis[2], 0));
     const Vector3 sum = (p + q).cast<double>() / sine;
     const double cosine = static_cast<double>(p.dot(q));
-    add_row(normal, Vector4(sum[0], sum[1], sum[2], -(1 + cosine) / sine));
+    normal.add(Vector4(sum[0], sum[1], sum[2], -(1 + cosine) / sine));
 }
 
 }  // namespace
@@ -38,17 +47,20 @@ RealVector3 AntiInvolution::apply(const RealVector3& p) const {
 }
 
 AntiInvolution fit_anti_involution(const SpherePoints& points, const SphereLandmarks& landmarks) {
-    Matrix4 normal = Matrix4::Zero();
-    for (const auto& [a, b] : landmarks.pairs) add_pair(normal, row_of(points, a), row_of(points, b));
+    NormalEquations normal;
+    for (const auto& [a, b] : landmarks.pairs)
+        add_pair(normal, row_of(points, a), row_of(points, b));
     for (const int v : landmarks.stationary) {
         const Vector3 p = row_of(points, v).cast<double>();
-        add_row(normal, Vector4(p[0], p[1], p[2], -1));
+        normal.add(Vector4(p[0], p[1], p[2], -1));
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix4> solver(normal);
+    const Eigen::SelfAdjointEigenSolver<Matrix4> solver(normal.sum);
+    const Eigen::SelfAdjointEigenSolver<Matrix4> directions(normal.directions,
+                                                            Eigen::EigenvaluesOnly);
     AntiInvolution result;
     const Vector4 n = solver.eigenvectors().col(0);
     const double square = n.head<3>().squaredNorm() - n[3] * n[3];
-    result.gap = (solver.eigenvalues()[1] - solver.eigenvalues()[0]) / solver.eigenvalues()[3];
+    result.definiteness = directions.eigenvalues()[1] / directions.eigenvalues()[3];
     result.is_reflection = square > 1e-6;
     if (!result.is_reflection) return result;
     // The sign of an eigenvector is an accident; the largest entry is made positive.

@@ -26,10 +26,11 @@ double disagreement(const SurfaceDistances& distances, const Mark& i, const Mark
     return std::max(straight, crossed);
 }
 
-double median(std::vector<double> values) {
+/// The value below which `share` of the values lie; 0 where there are none.
+double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
     std::sort(values.begin(), values.end());
-    return values[(values.size() - 1) / 2];
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 }  // namespace
@@ -68,8 +69,7 @@ double compare_landmark_distances(const SurfaceDistances& distances, const Spher
                                   const Landmarks& names, double tolerated_percent) {
     std::vector<Mark> all(marks.pairs.begin(), marks.pairs.end());
     for (const int v : marks.stationary) all.push_back({v, v});
-    std::size_t worst = 0;
-    double worst_median = -1;
+    std::vector<double> typical(all.size(), 0.0);
     double sum = 0;
     int count = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -82,24 +82,27 @@ double compare_landmark_distances(const SurfaceDistances& distances, const Spher
             sum += seen.back();
             ++count;
         }
-        const double middle = median(seen);
-        if (middle > worst_median) {
-            worst_median = middle;
-            worst = i;
-        }
+        // Not the largest, which one wrong partner spoils for all, and not the median: from most
+        // limbs the two sides of another limb are almost equally far.
+        typical[i] = quantile(seen, 0.75);
     }
-    if (worst_median > tolerated_percent) {
+    const auto worst = static_cast<std::size_t>(std::max_element(typical.begin(), typical.end()) -
+                                                typical.begin());
+    const double worst_percent = typical[worst];
+    // Where most agree well, less is enough to stand out.
+    const double outlying = std::max(5.0, 5 * quantile(typical, 0.5));
+    if (worst_percent > std::min(tolerated_percent, outlying)) {
         const bool is_pair = worst < names.pairs.size();
         const std::string what =
-            is_pair ? fmt::format("pair {} ({}, {})", worst, names.pairs[worst][0],
-                                  names.pairs[worst][1])
-                    : fmt::format("stationary vertex {}",
-                                  names.stationary[worst - names.pairs.size()]);
+            is_pair
+                ? fmt::format("pair {} ({}, {})", worst, names.pairs[worst][0],
+                              names.pairs[worst][1])
+                : fmt::format("stationary vertex {}", names.stationary[worst - names.pairs.size()]);
         throw InputError(InputFault::symmetry,
                          fmt::format("landmarks: {} disagrees with the others: distances to them "
                                      "differ by {:.0f} % of the surface's extent between the two "
                                      "sides; pick it again",
-                                     what, worst_median));
+                                     what, worst_percent));
     }
     return count > 0 ? sum / count : 0;
 }

@@ -27,7 +27,8 @@ double inscribing_radius(const std::vector<double>& lengths) {
     const double longest = *std::max_element(lengths.begin(), lengths.end());
     const auto turn = [&](double radius) {
         double sum = 0;
-        for (const double length : lengths) sum += 2 * std::asin(std::min(1.0, length / 2 / radius));
+        for (const double length : lengths)
+            sum += 2 * std::asin(std::min(1.0, length / 2 / radius));
         return sum;
     };
     double low = longest / 2;

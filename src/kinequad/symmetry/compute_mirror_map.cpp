@@ -28,7 +28,10 @@ struct Component {
 class MirroredSurface {
 public:
     MirroredSurface(const TriangleMesh& mesh, const Topology& topology, const MirrorPlane& plane)
-        : mesh_(mesh), topology_(topology), plane_(plane), component_(triangle_components(topology)) {
+        : mesh_(mesh),
+          topology_(topology),
+          plane_(plane),
+          component_(triangle_components(topology)) {
         const int count = 1 + *std::max_element(component_.begin(), component_.end());
         std::vector<std::vector<int>> members(at(count));
         for (int t = 0; t < topology.triangle_count; ++t) {

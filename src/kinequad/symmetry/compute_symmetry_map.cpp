@@ -82,8 +82,8 @@ void locate_centres(const ClosedSurface& surface, const SpherePoints& points,
                                      points.row(surface.F(row, 2)))
                                         .transpose();
             const int start = images.vertex[at(surface.F(row, 0))].triangle;
-            const SphereLocation found = locate_on_sphere(
-                surface.topology, points, mirrored(sum.normalized(), axis), start);
+            const SphereLocation found =
+                locate_on_sphere(surface.topology, points, mirrored(sum.normalized(), axis), start);
             images.centre[t] = surface.to_input(found.point);
             is_outside[t] = found.is_inside ? 0 : 1;
         }
@@ -111,7 +111,7 @@ SpherePoints warp_and_extend(const ClosedSurface& surface, const SurfaceDistance
 }
 
 void require_fit(const AntiInvolution& fit) {
-    require(fit.gap > 1e-7, InputFault::symmetry,
+    require(fit.definiteness > 1e-14, InputFault::symmetry,
             "landmarks: more than one symmetry fits them; add pairs far from each other, or points "
             "on the line of symmetry");
     require(fit.is_reflection, InputFault::symmetry,
@@ -180,10 +180,11 @@ SymmetryMap compute_symmetry_map(const TriangleMesh& mesh, const IntrinsicMetric
     if (report.involution_mean_percent > options.involution_percent) {
         throw InputError(
             InputFault::symmetry,
-            fmt::format("landmarks: the map that follows from them is no involution (vertices come "
-                        "back {:.1f} % of the diagonal away); check the pairs, or add some on limbs "
-                        "that have none",
-                        report.involution_mean_percent));
+            fmt::format(
+                "landmarks: the map that follows from them is no involution (vertices come "
+                "back {:.1f} % of the diagonal away); check the pairs, or add some on limbs "
+                "that have none",
+                report.involution_mean_percent));
     }
     context.write_log(
         LogLevel::info,

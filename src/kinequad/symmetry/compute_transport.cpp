@@ -21,10 +21,10 @@ struct PatchVertices {
 };
 
 PatchVertices vertices_around(const Topology& topology, const IntrinsicMetric& metric, int t) {
-    std::vector<int> beside;
+    std::vector<SurfacePoint> beside;
     for (int k = 0; k < 3; ++k) {
         const int g = topology.twin[at(3 * t + k)];
-        if (g >= 0) beside.push_back(g / 3);
+        if (g >= 0) beside.push_back({g / 3, Vector3::Constant(1.0 / 3)});
     }
     const UnfoldedPatch patch = unfold_patch(topology, metric, t, beside, 4);
     PatchVertices result;
@@ -51,17 +51,15 @@ LocalTransport transport_at(const Topology& topology, const IntrinsicMetric& met
                             const std::vector<SurfacePoint>& vertex_image, int t,
                             int image_triangle) {
     const PatchVertices here = vertices_around(topology, metric, t);
-    std::vector<int> wanted;
-    for (const int v : here.vertex) wanted.push_back(vertex_image[at(v)].triangle);
-    const UnfoldedPatch there =
-        unfold_patch(topology, metric, image_triangle, wanted, patch_limit);
+    std::vector<SurfacePoint> wanted;
+    for (const int v : here.vertex) wanted.push_back(vertex_image[at(v)]);
+    const UnfoldedPatch there = unfold_patch(topology, metric, image_triangle, wanted, patch_limit);
     std::vector<Vector2> from;
     std::vector<Vector2> to;
     for (std::size_t i = 0; i < here.vertex.size(); ++i) {
-        Vector2 position;
-        if (!there.find(vertex_image[at(here.vertex[i])], position)) continue;
+        if (!there.is_found[i]) continue;
         from.push_back(here.position[i]);
-        to.push_back(position);
+        to.push_back(there.position[i]);
     }
     LocalTransport result;
     if (from.size() < 3) return result;
@@ -87,6 +85,42 @@ LocalTransport transport_at(const Topology& topology, const IntrinsicMetric& met
     return result;
 }
 
+/// Carries the transport of a neighbour, across half-edge `h`, over to triangle h / 3.
+double carry_over(const Topology& topology, const IntrinsicMetric& metric, int h, double neighbour,
+                  int image_here, int image_there) {
+    const double there_from_here = frame_rotation(topology, metric, h);
+    const UnfoldedPatch patch = unfold_patch(
+        topology, metric, image_here, {{image_there, Vector3::Constant(1.0 / 3)}}, patch_limit);
+    double here_from_there = 0;
+    for (std::size_t i = 0; i < patch.triangle.size(); ++i) {
+        if (patch.triangle[i] != image_there) continue;
+        const Vector2 axis = patch.corners[i].col(1) - patch.corners[i].col(0);
+        here_from_there = std::atan2(axis[1], axis[0]);
+    }
+    return neighbour - there_from_here + here_from_there;
+}
+
+/// Gives triangles whose vertices' images lie too far apart the transport of a neighbour.
+void fill_unknown(const Topology& topology, const IntrinsicMetric& metric,
+                  const std::vector<SurfacePoint>& centre_image,
+                  std::vector<LocalTransport>& local) {
+    const int count = static_cast<int>(local.size());
+    for (bool is_spreading = true; is_spreading;) {
+        is_spreading = false;
+        const std::vector<LocalTransport> before = local;
+        for (int h = 0; h < 3 * count; ++h) {
+            const int other = topology.twin[at(h)] / 3;
+            if (topology.twin[at(h)] < 0 || other >= count) continue;
+            if (local[at(h / 3)].is_known || !before[at(other)].is_known) continue;
+            local[at(h / 3)].angle =
+                carry_over(topology, metric, h, before[at(other)].angle,
+                           centre_image[at(h / 3)].triangle, centre_image[at(other)].triangle);
+            local[at(h / 3)].is_known = true;
+            is_spreading = true;
+        }
+    }
+}
+
 }  // namespace
 
 Transport compute_transport(const Topology& topology, const IntrinsicMetric& metric,
@@ -101,6 +135,7 @@ Transport compute_transport(const Topology& topology, const IntrinsicMetric& met
                                     centre_image[t].triangle);
         }
     });
+    fill_unknown(topology, metric, centre_image, local);
     for (std::size_t t = 0; t < local.size(); ++t) {
         transport.angle[static_cast<Eigen::Index>(t)] = local[t].angle;
         if (local[t].is_reversed) ++transport.reversed_triangles;

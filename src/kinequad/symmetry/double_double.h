@@ -7,8 +7,9 @@
 
 namespace kinequad {
 
-/// The unevaluated sum of two doubles, some 31 decimal digits [Dekker 1971]. A conformal map shrinks
-/// tails and limbs to 1e-20 of the sphere, where plain doubles have no digit left for their shape.
+/// The unevaluated sum of two doubles, some 31 decimal digits [Dekker 1971]. A conformal map
+/// shrinks tails and limbs to 1e-20 of the sphere, where plain doubles have no digit left for their
+/// shape.
 class DoubleDouble {
 public:
     DoubleDouble() = default;

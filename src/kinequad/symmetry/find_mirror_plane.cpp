@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinequad/core/parallel.h"
 #include "kinequad/mesh/closest_points.h"
@@ -65,8 +66,7 @@ Step improve_plane(const ClosestPoints& surface, const Samples& samples, const M
     step.rms = std::sqrt(step.rms);
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
     for (std::size_t i = 0; i < count; ++i) {
-        const Eigen::Matrix3d product =
-            (samples.point[i] - from) * (closest[i] - to).transpose();
+        const Eigen::Matrix3d product = (samples.point[i] - from) * (closest[i] - to).transpose();
         moment += samples.weight[i] * (product + product.transpose());
     }
     // |q - reflected p|^2 is least where n^T M n is.
@@ -129,13 +129,14 @@ MirrorPlane search_plane(const TriangleMesh& mesh, double hopeless_percent,
     for (std::size_t i = 0; i < 3; ++i) {
         MirrorPlane plane = found[i].second;
         std::vector<int> hints;
-        double last = 0;
+        plane.residual_percent = std::numeric_limits<double>::infinity();
         for (int round = 0; round < 60; ++round) {
-            const Step step = improve_plane(surface, fine, plane, hints, context);
-            const bool is_settled = round > 0 && step.rms > 0.999 * last;
-            last = step.rms;
-            plane.residual_percent = step.rms * percent;
-            if (is_settled || plane.residual_percent < 1e-9) break;
+            Step step = improve_plane(surface, fine, plane, hints, context);
+            const double residual = step.rms * percent;
+            const bool is_settled = residual > 0.999 * plane.residual_percent;
+            plane.residual_percent = residual;
+            if (is_settled || residual < 1e-9 || round == 59) break;
+            step.next.residual_percent = residual;
             plane = step.next;
         }
         if (is_first || plane.residual_percent < best.residual_percent) best = plane;

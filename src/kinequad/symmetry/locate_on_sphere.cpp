@@ -45,9 +45,9 @@ SphereLocation search_all(const Topology& topology, const SpherePoints& points,
         if (faces && sum < 0) x = -x;
         if (faces && sum != 0 && x.minCoeff() >= 0) return {point_of(t, x), sum > 0};
         // Distances from the query, not positions, keep tiny triangles apart.
-        const TrianglePoint found = closest_point_on_triangle(
-            Vector3::Zero(), (k.a - query).cast<double>(), (k.b - query).cast<double>(),
-            (k.c - query).cast<double>());
+        const TrianglePoint found =
+            closest_point_on_triangle(Vector3::Zero(), (k.a - query).cast<double>(),
+                                      (k.b - query).cast<double>(), (k.c - query).cast<double>());
         if (found.squared_distance < nearest) {
             nearest = found.squared_distance;
             best.point = {t, found.barycentric};

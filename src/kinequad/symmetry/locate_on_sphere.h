@@ -13,8 +13,8 @@ struct SphereLocation {
 };
 
 /// Finds the spherical triangle that holds a point, by walking from triangle `start` towards it;
-/// where reversed triangles lead the walk astray all triangles are asked. `points` has a row for every vertex
-/// of the closed `topology`.
+/// where reversed triangles lead the walk astray all triangles are asked. `points` has a row for
+/// every vertex of the closed `topology`.
 SphereLocation locate_on_sphere(const Topology& topology, const SpherePoints& points,
                                 const RealVector3& query, int start);
 

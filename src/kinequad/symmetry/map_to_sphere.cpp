@@ -21,7 +21,8 @@ std::vector<int> order_by_centrality(const Topology& topology,
         if (topology.vertex_half_edge[at(v)] >= 0) order.push_back(v);
     }
     std::sort(order.begin(), order.end(), [&](int a, int b) {
-        return remoteness[at(a)] != remoteness[at(b)] ? remoteness[at(a)] < remoteness[at(b)] : a < b;
+        return remoteness[at(a)] != remoteness[at(b)] ? remoteness[at(a)] < remoteness[at(b)]
+                                                      : a < b;
     });
     return order;
 }
@@ -151,8 +152,8 @@ SphereMap map_to_sphere(const Topology& topology, const IntrinsicMetric& metric,
                       "symmetry: no discrete conformal map was found; a harmonic one is used");
     const int pole = first >= 0 ? first : order.front();
     const PuncturedDisk disk = puncture_surface(delaunay, leaving[at(pole)], topology.vertex_count);
-    SphereMap map = finish(
-        lay_out_disk(disk, Eigen::VectorXd::Zero(topology.vertex_count), false), pole);
+    SphereMap map =
+        finish(lay_out_disk(disk, Eigen::VectorXd::Zero(topology.vertex_count), false), pole);
     map.is_uniform = false;
     return map;
 }

@@ -15,8 +15,8 @@ struct SphereMap {
 
 /// Maps a closed surface of genus 0 to the unit sphere by discrete conformal equivalence, with the
 /// centre of area in the middle. The surface is punctured where `remoteness` (n, per vertex) is
-/// least: at an extremity the limbs opposite would shrink to nothing. Falls back to a harmonic map where that fails. [Haker 2000,
-/// Springborn 2020, Baden 2018]
+/// least: at an extremity the limbs opposite would shrink to nothing. Falls back to a harmonic map
+/// where that fails. [Haker 2000, Springborn 2020, Baden 2018]
 SphereMap map_to_sphere(const Topology& topology, const IntrinsicMetric& metric,
                         const std::vector<double>& remoteness, const Context& context);
 

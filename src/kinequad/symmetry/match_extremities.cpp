@@ -9,8 +9,9 @@
 namespace kinequad {
 namespace {
 
-// In shares of the surface's extent. An end that comes back nearer to itself is mapped as well as an
-// end vertex can be chosen; matched from farther away, two limbs could be mistaken for each other.
+// In shares of the surface's extent. An end that comes back nearer to itself is mapped as well as
+// an end vertex can be chosen; matched from farther away, two limbs could be mistaken for each
+// other.
 constexpr double nearest_worth = 0.02;
 constexpr double farthest_trusted = 0.15;
 

@@ -12,9 +12,9 @@ struct PuncturedDisk {
     FlipTriangulation mesh;
     int vertex_count = 0;
     int puncture = -1;
-    std::vector<int> link;       ///< boundary vertices, with the disk on the left
-    std::vector<double> spoke;   ///< unscaled lengths from the puncture to `link`
-    std::vector<double> bearing; ///< directions of the spokes at the puncture, over one full turn
+    std::vector<int> link;        ///< boundary vertices, with the disk on the left
+    std::vector<double> spoke;    ///< unscaled lengths from the puncture to `link`
+    std::vector<double> bearing;  ///< directions of the spokes at the puncture, over one full turn
 };
 
 /// Whether the triangles around `vertex` are well shaped, distinct and enclose it simply.

@@ -66,7 +66,8 @@ public:
             for (int t = 0; t < topology_.triangle_count; ++t) {
                 if (visited[at(t)]) continue;
                 const Crossing first = crossing(t);
-                if (first.enter < 0 || (only_open && topology_.twin[at(first.enter)] >= 0)) continue;
+                if (first.enter < 0 || (only_open && topology_.twin[at(first.enter)] >= 0))
+                    continue;
                 chains.push_back(trace(t, visited));
                 chains.back().is_closed = !only_open;
             }

@@ -30,14 +30,15 @@ struct SymmetryQuality {
     double mirror_residual_percent = 0;  ///< rms distance to the mirrored shape; mirror plane only
 };
 
-/// The bilateral intrinsic symmetry `S` of a surface: an orientation-reversing map of the surface to
-/// itself that is its own inverse. Made by `compute_symmetry_map` or `compute_mirror_map`, never
+/// The bilateral intrinsic symmetry `S` of a surface: an orientation-reversing map of the surface
+/// to itself that is its own inverse. Made by `compute_symmetry_map` or `compute_mirror_map`, never
 /// changed. docs/symmetry.md
 struct SymmetryMap {
-    std::vector<SurfacePoint> vertex_image;  ///< n: image of every vertex
+    std::vector<SurfacePoint> vertex_image;  ///< n: image of every vertex; triangle -1 where the
+                                             ///< vertex belongs to no triangle
     std::vector<SurfacePoint> centre_image;  ///< m: image of the centroid of every triangle
-    /// m: angle phi such that a direction `x` in the frame of triangle t becomes `phi[t] - x` in the
-    /// frame of the triangle `centre_image[t].triangle`; radians.
+    /// m: angle phi such that a direction `x` in the frame of triangle t becomes `phi[t] - x` in
+    /// the frame of the triangle `centre_image[t].triangle`; radians.
     Eigen::VectorXd transport;
     /// n: signed height over the stationary curve, positive on one side and negative on the other,
     /// never 0, without unit; its zero set along the edges is the curve.

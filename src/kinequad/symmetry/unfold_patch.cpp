@@ -26,29 +26,48 @@ Eigen::Matrix<double, 2, 3> lay_out_beside(const Topology& topology, const Intri
     return corners;
 }
 
-}  // namespace
-
-bool UnfoldedPatch::find(const SurfacePoint& point, Vector2& position) const {
-    const auto found = std::find(triangle.begin(), triangle.end(), point.triangle);
-    if (found == triangle.end()) return false;
-    position = corners[static_cast<std::size_t>(found - triangle.begin())] * point.barycentric;
-    return true;
+/// Takes the wanted points that lie in the last triangle of the patch, and returns how many.
+int take_points(const Topology& topology, const std::vector<SurfacePoint>& wanted,
+                UnfoldedPatch& patch) {
+    const int t = patch.triangle.back();
+    int taken = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        if (patch.is_found[i]) continue;
+        Vector2 position = Vector2::Zero();
+        bool is_here = true;
+        for (int k = 0; k < 3 && is_here; ++k) {
+            const double weight = wanted[i].barycentric[k];
+            // A weight of rounding size says on which side of an edge the point fell by chance.
+            if (weight < 1e-9) continue;
+            const int v = topology.origin[at(3 * wanted[i].triangle + k)];
+            is_here = false;
+            for (int corner = 0; corner < 3; ++corner) {
+                if (topology.origin[at(3 * t + corner)] != v) continue;
+                position += weight * patch.corners.back().col(corner);
+                is_here = true;
+            }
+        }
+        if (!is_here) continue;
+        patch.position[i] = position;
+        patch.is_found[i] = true;
+        ++taken;
+    }
+    return taken;
 }
 
+}  // namespace
+
 UnfoldedPatch unfold_patch(const Topology& topology, const IntrinsicMetric& metric, int middle,
-                           const std::vector<int>& wanted, int limit) {
+                           const std::vector<SurfacePoint>& wanted, int limit) {
     UnfoldedPatch patch;
+    patch.position.resize(wanted.size(), Vector2::Zero());
+    patch.is_found.resize(wanted.size(), false);
     patch.triangle.push_back(middle);
     patch.corners.push_back(lay_out_triangle(side_lengths(topology, metric, middle)));
     const auto is_in = [&](int t) {
         return std::find(patch.triangle.begin(), patch.triangle.end(), t) != patch.triangle.end();
     };
-    std::size_t missing = 0;
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        const bool is_first = std::find(wanted.begin(), wanted.begin() + static_cast<long>(i),
-                                        wanted[i]) == wanted.begin() + static_cast<long>(i);
-        if (is_first && wanted[i] != middle) ++missing;
-    }
+    int missing = static_cast<int>(wanted.size()) - take_points(topology, wanted, patch);
     for (std::size_t i = 0; i < patch.triangle.size() && missing > 0; ++i) {
         for (int k = 0; k < 3; ++k) {
             const int g = topology.twin[at(3 * patch.triangle[i] + k)];
@@ -58,7 +77,7 @@ UnfoldedPatch unfold_patch(const Topology& topology, const IntrinsicMetric& metr
             const Vector2 to = patch.corners[i].col(k);
             patch.corners.push_back(lay_out_beside(topology, metric, g, from, to));
             patch.triangle.push_back(g / 3);
-            if (std::find(wanted.begin(), wanted.end(), g / 3) != wanted.end()) --missing;
+            missing -= take_points(topology, wanted, patch);
         }
     }
     return patch;

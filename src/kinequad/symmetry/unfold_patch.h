@@ -11,13 +11,14 @@ namespace kinequad {
 struct UnfoldedPatch {
     std::vector<int> triangle;                         ///< breadth first; the middle one is first
     std::vector<Eigen::Matrix<double, 2, 3>> corners;  ///< positions of their corners, as columns
-
-    /// Position of a surface point, where its triangle is in the patch.
-    bool find(const SurfacePoint& point, Vector2& position) const;
+    std::vector<Vector2> position;                     ///< of the wanted points
+    std::vector<bool> is_found;                        ///< which of these are in the patch
 };
 
-/// Lays out the triangles around `middle`, at most `limit`, until all of `wanted` are among them.
+/// Lays out the triangles around `middle`, at most `limit`, until all of `wanted` are among them. A
+/// point on an edge or a vertex is taken from the first triangle that it belongs to, whichever
+/// triangle it is given in.
 UnfoldedPatch unfold_patch(const Topology& topology, const IntrinsicMetric& metric, int middle,
-                           const std::vector<int>& wanted, int limit);
+                           const std::vector<SurfacePoint>& wanted, int limit);
 
 }  // namespace kinequad

@@ -23,8 +23,11 @@ std::string find_problem(const TriangleMesh& mesh, const SymmetryMap& map) {
         map.height.size() != mesh.V.rows()) {
         return "the map is of another mesh";
     }
+    std::vector<bool> is_used(map.vertex_image.size(), false);
+    for (Eigen::Index i = 0; i < mesh.F.size(); ++i) is_used[at(mesh.F.data()[i])] = true;
     for (std::size_t v = 0; v < map.vertex_image.size(); ++v) {
-        if (!is_valid(map.vertex_image[v], m)) return fmt::format("vertex {} has no image", v);
+        if (is_used[v] && !is_valid(map.vertex_image[v], m))
+            return fmt::format("vertex {} has no image", v);
     }
     for (std::size_t t = 0; t < map.centre_image.size(); ++t) {
         if (!is_valid(map.centre_image[t], m)) return fmt::format("triangle {} has no image", t);
@@ -60,13 +63,17 @@ SymmetryReport verify_symmetry_map(const TriangleMesh& mesh, const SymmetryMap& 
     report.is_complete = report.problem.empty();
     if (!report.is_complete) return report;
     const double percent = 100 / bounding_box_diagonal(mesh.V);
+    int mapped = 0;
     for (Eigen::Index v = 0; v < mesh.V.rows(); ++v) {
-        const Vector3 twice =
-            image_position(mesh, map.vertex_image, map.vertex_image[static_cast<std::size_t>(v)]);
+        const SurfacePoint& image = map.vertex_image[static_cast<std::size_t>(v)];
+        if (image.triangle < 0) continue;
+        const Vector3 twice = image_position(mesh, map.vertex_image, image);
         const double off = percent * (twice - mesh.V.row(v).transpose()).norm();
-        report.involution_mean_percent += off / static_cast<double>(mesh.V.rows());
+        report.involution_mean_percent += off;
+        ++mapped;
         report.involution_max_percent = std::max(report.involution_max_percent, off);
     }
+    report.involution_mean_percent /= std::max(mapped, 1);
     int points = 0;
     for (const auto& line : map.stationary) {
         const SurfacePoint& first = line.front();

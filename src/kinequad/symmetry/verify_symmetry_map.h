@@ -7,8 +7,8 @@ namespace kinequad {
 
 /// What is true of a symmetry map, measured anew from the map alone.
 struct SymmetryReport {
-    double involution_mean_percent = 0;  ///< mean distance of vertices `p` and `S(S(p))`, in percent
-                                         ///< of the bounding-box diagonal
+    double involution_mean_percent = 0;  ///< mean distance of vertices `p` and `S(S(p))`, in
+                                         ///< percent of the bounding-box diagonal
     double involution_max_percent = 0;
     /// Mean distance of the points of the stationary curve from their images, in percent.
     double stationary_percent = 0;

@@ -41,7 +41,8 @@ SpherePoints warp_to_landmarks(const SpherePoints& points, const SphereLandmarks
     RealMatrix right = RealMatrix::Zero(count + 1, 3);
     for (Eigen::Index i = 0; i < count; ++i) {
         for (Eigen::Index j = 0; j < count; ++j) {
-            A(i, j) = kernel(centre[static_cast<std::size_t>(i)], centre[static_cast<std::size_t>(j)]);
+            A(i, j) =
+                kernel(centre[static_cast<std::size_t>(i)], centre[static_cast<std::size_t>(j)]);
         }
         A(i, count) = A(count, i) = 1;
         right.row(i) = move[static_cast<std::size_t>(i)].transpose();

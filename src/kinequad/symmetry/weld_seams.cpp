@@ -36,9 +36,7 @@ std::vector<int> weld_places(const TriangleMesh& mesh, const Topology& topology)
     for (int v = 0; v < topology.vertex_count; ++v) {
         if (topology.is_boundary_vertex(v)) border.push_back(v);
     }
-    const auto place = [&](int v) {
-        return std::array{mesh.V(v, 0), mesh.V(v, 1), mesh.V(v, 2)};
-    };
+    const auto place = [&](int v) { return std::array{mesh.V(v, 0), mesh.V(v, 1), mesh.V(v, 2)}; };
     std::stable_sort(border.begin(), border.end(),
                      [&](int a, int b) { return place(a) < place(b); });
     for (std::size_t i = 1; i < border.size(); ++i) {

@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "kinequad/core/error.h"
+#include "kinequad/io/memory_sequence.h"
+#include "kinequad/symmetry/compute_mirror_map.h"
+#include "kinequad/symmetry/find_mirror_plane.h"
+#include "kinequad/symmetry/stationary_curve.h"
+#include "kinequad/symmetry/verify_symmetry_map.h"
+#include "kinequad/synth/synthesize_creature.h"
+#include "symmetry/symmetric_shapes.h"
+
+namespace kinequad {
+namespace {
+
+const Eigen::Matrix3d turn = (Eigen::AngleAxisd(0.8, Vector3(1, 2, -1).normalized()) *
+                              Eigen::AngleAxisd(2.1, Vector3::UnitY()))
+                                 .toRotationMatrix();
+
+Positions moved(const Positions& V) {
+    return (V * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -7, 2);
+}
+
+TEST(MirrorPlane, IsFoundInAnyPosition) {
+    const test::SymmetricShape shape = test::bumpy_ellipsoid(4);
+    const TriangleMesh mesh{1e3 * moved(shape.mesh.V), shape.mesh.F};
+    const MirrorPlane plane = find_mirror_plane(mesh, {});
+    const Vector3 expected = turn.col(0);
+    EXPECT_GT(std::abs(plane.normal.dot(expected)), 1 - 1e-8);
+    EXPECT_NEAR(plane.offset, 1e3 * plane.normal.dot(Vector3(3, -7, 2)), 0.1);
+    EXPECT_LT(plane.residual_percent, 0.01);
+}
+
+TEST(MirrorPlane, OfAShapeWithoutOneHasAResidual) {
+    TriangleMesh mesh = test::sphere(3);
+    for (Eigen::Index v = 0; v < mesh.V.rows(); ++v) {
+        const Vector3 p = mesh.V.row(v).transpose();
+        mesh.V.row(v) *= 1 + 0.3 * p[0] * p[1] * p[2] + 0.2 * p[0] * p[0] * p[1] +
+                         0.1 * p[2] * p[2] * p[0] + 0.1 * p[2];
+    }
+    EXPECT_GT(find_mirror_plane(mesh, {}).residual_percent, 0.3);
+}
+
+TEST(SymmetricPose, IsTheRestShapeOfAWalkingCreature) {
+    const auto creature = synthesize_creature("biped", {3000, 16}, {});
+    const auto pose = find_symmetric_pose(*creature, 0.1, {});
+    ASSERT_TRUE(pose.has_value());
+    EXPECT_EQ(pose->frame, -1);
+    std::vector<Positions> frames;
+    for (int i = 0; i < 4; ++i) frames.push_back(creature->read_frame(i));
+    const MemorySequence walk(creature->triangles(), frames);
+    EXPECT_FALSE(find_symmetric_pose(walk, 0.1, {}).has_value());
+}
+
+TEST(MirrorMap, IsTheMirrorOfACreature) {
+    const auto creature = synthesize_creature("quadruped", {4000, 2}, {});
+    const TriangleMesh mesh{creature->read_rest_shape(), creature->triangles()};
+    const SymmetryMap map =
+        compute_mirror_map(mesh, find_mirror_plane(mesh, {}), test::metric_of(mesh), {});
+    EXPECT_EQ(map.method, "mirror plane");
+    EXPECT_LT(test::map_errors(mesh, map.vertex_image, creature->mirror()).maxCoeff(), 0.02);
+    EXPECT_LT(test::transport_error(mesh, map.centre_image, map.transport, creature->mirror()),
+              0.02);
+    EXPECT_EQ(map.quality.reversed_triangles, 0);
+    const SymmetryReport report = verify_symmetry_map(mesh, map);
+    EXPECT_EQ(report.stationary_loops, 1);
+    EXPECT_LT(report.involution_mean_percent, 0.02);
+}
+
+TEST(MirrorMap, TakesSurfacesWithHandles) {
+    const TriangleMesh mesh = test::torus(40, 20);
+    const SymmetryMap map =
+        compute_mirror_map(mesh, {Vector3::UnitX(), 0, 0}, test::metric_of(mesh), {});
+    EXPECT_LT(test::map_errors(mesh, map.vertex_image, test::mirror_in_x(mesh.V)).maxCoeff(), 1e-9);
+    EXPECT_EQ(verify_symmetry_map(mesh, map).stationary_loops, 2);
+}
+
+TEST(MirrorMap, MapsComponentsToTheirPartners) {
+    // Two spheres that mirror each other inside each other's closest reach, one mapped to itself.
+    const TriangleMesh one = test::sphere(3);
+    const Eigen::Index n = one.V.rows();
+    TriangleMesh mesh;
+    mesh.V.resize(3 * n, 3);
+    mesh.F.resize(3 * one.F.rows(), 3);
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        mesh.V.middleRows(i * n, n) =
+            (0.99 * one.V).rowwise() + Eigen::RowVector3d(static_cast<double>(i - 1) * 2, 0, 0);
+        mesh.F.middleRows(i * one.F.rows(), one.F.rows()) = one.F.array() + static_cast<int>(i * n);
+    }
+    const SymmetryMap map =
+        compute_mirror_map(mesh, {Vector3::UnitX(), 0, 0}, test::metric_of(mesh), {});
+    for (Eigen::Index v = 0; v < 3 * n; ++v) {
+        const Eigen::Index part =
+            map.vertex_image[static_cast<std::size_t>(v)].triangle / one.F.rows();
+        EXPECT_EQ(part, 2 - v / n);
+    }
+    EXPECT_LT(test::map_errors(mesh, map.vertex_image, test::mirror_in_x(mesh.V)).maxCoeff(), 1e-9);
+}
+
+TEST(MirrorMap, IsRefusedWhereThePlaneMissesTheSurface) {
+    const TriangleMesh mesh = test::sphere(2);
+    EXPECT_THROW(compute_mirror_map(mesh, {Vector3::UnitX(), 5, 0}, test::metric_of(mesh), {}),
+                 InputError);
+}
+
+Eigen::VectorXd height_of(const TriangleMesh& mesh, const Vector3& normal) {
+    return mesh.V * normal;
+}
+
+TEST(StationaryCurve, IsTheEquatorOfASphere) {
+    const TriangleMesh mesh = test::sphere(4);
+    const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));
+    const IntrinsicMetric metric = kinequad::metric_of(topology, mesh.V);
+    const Vector3 normal = Vector3(0.3, -0.5, 0.7).normalized();
+    const StationaryCurve curve = trace_stationary_curve(topology, metric, height_of(mesh, normal),
+                                                         topology.triangle_count, 0.05);
+    ASSERT_EQ(curve.polylines.size(), 1U);
+    const auto& line = curve.polylines[0];
+    double length = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const Vector3 a = position_of(line[i], mesh.V, mesh.F);
+        const Vector3 b = position_of(line[i + 1], mesh.V, mesh.F);
+        length += (b - a).norm();
+        // With the positive side on its left, the curve turns counter-clockwise about the normal.
+        EXPECT_GE(a.cross(b).dot(normal), -1e-9);
+        // The direction of the triangle, in space, is along the curve.
+        const StationaryDirection& d = curve.directions[i];
+        ASSERT_EQ(d.triangle, line[i].triangle);
+        const Vector3 origin = mesh.V.row(mesh.F(d.triangle, 0)).transpose();
+        const Vector3 x = (mesh.V.row(mesh.F(d.triangle, 1)).transpose() - origin).normalized();
+        const Vector3 y = (a + b).normalized().cross(x);
+        const Vector3 along = std::cos(d.angle) * x + std::sin(d.angle) * y;
+        EXPECT_GT(std::abs(along.dot(normal.cross(a + b).normalized())), 0.97);
+    }
+    EXPECT_NEAR(length, 2 * std::numbers::pi, 0.02);
+}
+
+TEST(StationaryCurve, EndsOnTheBoundaryAndDropsSpecks) {
+    const TriangleMesh mesh = test::cylinder(80, 40);
+    const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));
+    const IntrinsicMetric metric = kinequad::metric_of(topology, mesh.V);
+    const double low = mesh.V.col(2).minCoeff();
+    const double high = mesh.V.col(2).maxCoeff();
+    const double middle = (low + high) / 2;
+    Eigen::VectorXd height = height_of(mesh, Vector3(0.9, 0.3, 0.02));
+    Eigen::Index far = 0;
+    (mesh.V * Vector3(1, 0.2, 0) - (mesh.V.col(2).array() - middle).abs().matrix()).maxCoeff(&far);
+    height[far] *= -1;  // a speck on the wrong side
+    const StationaryCurve curve =
+        trace_stationary_curve(topology, metric, height, topology.triangle_count, 0.3);
+    EXPECT_EQ(curve.dropped_loops, 1);
+    EXPECT_EQ(curve.polylines.size(), 2U);
+    EXPECT_GT(curve.height[far], 0);
+    for (const auto& line : curve.polylines) {
+        for (const SurfacePoint& end : {line.front(), line.back()}) {
+            const double z = position_of(end, mesh.V, mesh.F)[2];
+            EXPECT_LT(std::min(z - low, high - z), 1e-9);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace kinequad

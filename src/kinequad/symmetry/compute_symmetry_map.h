@@ -25,7 +25,7 @@ struct SymmetryOptions {
 /// metric or that of the reference. Landmarks in any order; the order in a pair does not matter.
 /// Throws `InputError` (symmetry) where landmarks repeat, are too few, or one disagrees with the
 /// others; where the surface has handles or parts that do not join; where the result is no
-/// involution. [Liu 2016, Panozzo 2012], docs/symmetry.md
+/// involution. [DuTu], [Panozzo 2012], docs/symmetry.md
 SymmetryMap compute_symmetry_map(const TriangleMesh& mesh, const IntrinsicMetric& metric,
                                  const Landmarks& landmarks, const SymmetryOptions& options,
                                  const Context& context);

@@ -94,9 +94,7 @@ TEST_F(BadLandmarks, AreCountedWhereTheyAreTooFew) {
     expect_answer({{}, {good.stationary[0], good.stationary[1]}}, "at least two pairs");
 }
 
-TEST_F(BadLandmarks, DoNotGiveAMapOfAHandleOrOfLooseParts) {
-    mesh = test::torus(20, 10);
-    expect_answer({{{3, 17}, {43, 57}}, {0, 10}}, "genus 1");
+TEST_F(BadLandmarks, DoNotGiveAMapOfLooseParts) {
     const TriangleMesh one = test::sphere(2);
     mesh.V.resize(2 * one.V.rows(), 3);
     mesh.V << one.V, one.V.array() + 3;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "kinequad/symmetry/anti_involution.h"
+#include "kinequad/symmetry/cut_handles.h"
 #include "kinequad/symmetry/flip_triangulation.h"
 #include "kinequad/symmetry/locate_on_sphere.h"
 #include "kinequad/symmetry/map_to_sphere.h"
@@ -73,6 +74,48 @@ TEST(FlipTriangulation, EndsDelaunayAndKeepsTheSurface) {
         EXPECT_EQ(flipped.twin[static_cast<std::size_t>(g)], h);
         EXPECT_EQ(flipped.origin[static_cast<std::size_t>(g)], flipped.target(h));
     }
+}
+
+TEST(CutHandles, CutsATorusAlongItsShortWayRound) {
+    const TriangleMesh mesh = test::torus(48, 24);
+    const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));
+    const IntrinsicMetric metric = kinequad::metric_of(topology, mesh.V);
+    std::vector<double> side;
+    for (const int e : topology.edge) side.push_back(metric.edge_length[e]);
+    const CutSurface cut = cut_handles(mesh.F, topology.vertex_count, side, {});
+    const Topology open = build_topology(cut.F, cut.vertex_count);
+    const SurfaceCounts counts = count_surface(open);
+    EXPECT_EQ(counts.components, 1);
+    EXPECT_EQ(counts.boundary_loops, 2);
+    EXPECT_EQ(counts.euler_characteristic, 0);
+    double length = 0;
+    const std::vector<int> loop = boundary_loops(open)[0];
+    for (const int h : loop) length += side[static_cast<std::size_t>(h)];
+    EXPECT_NEAR(length, 2 * std::numbers::pi * 0.4, 0.02);
+}
+
+TEST(CutHandles, CutsEveryHandleOfAFigureOfEight) {
+    // Two tori joined through a triangle each.
+    const TriangleMesh one = test::torus(24, 12);
+    const int n = static_cast<int>(one.V.rows());
+    Triangles F(2 * one.F.rows() - 2, 3);
+    F.topRows(one.F.rows() - 1) = one.F.bottomRows(one.F.rows() - 1);
+    F.bottomRows(one.F.rows() - 1) = one.F.bottomRows(one.F.rows() - 1).array() + n;
+    // The hole of the second takes the vertices of the first, the other way round.
+    const std::array<int, 3> from = {one.F(0, 0) + n, one.F(0, 1) + n, one.F(0, 2) + n};
+    const std::array<int, 3> to = {one.F(0, 0), one.F(0, 2), one.F(0, 1)};
+    for (Eigen::Index i = 0; i < F.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (F.data()[i] == from[k]) F.data()[i] = to[k];
+        }
+    }
+    ASSERT_EQ(count_surface(build_topology(F, 2 * n)).euler_characteristic, -2);
+    const std::vector<double> side(static_cast<std::size_t>(F.size()), 1.0);
+    const CutSurface cut = cut_handles(F, 2 * n, side, {});
+    const SurfaceCounts counts = count_surface(build_topology(cut.F, cut.vertex_count));
+    EXPECT_EQ(counts.components, 1);
+    EXPECT_EQ(counts.boundary_loops, 4);
+    EXPECT_EQ(counts.euler_characteristic, -2);
 }
 
 TEST(MapToSphere, MovesASphereByAMoebiusTransformation) {

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
 #include "kinequad/core/error.h"
+#include "kinequad/symmetry/cut_handles.h"
 #include "kinequad/symmetry/weld_seams.h"
 
 namespace kinequad {
@@ -42,6 +44,47 @@ double inscribing_radius(const std::vector<double>& lengths) {
     return std::max(high, 1.0001 * longest / 2);
 }
 
+/// Triangles with the lengths of their half-edges.
+struct SidedSurface {
+    Triangles F;
+    int vertex_count = 0;
+    std::vector<double> side;  ///< 3m
+};
+
+/// Lengths of the half-edges of a welded surface: both sides of a seam may have measured it.
+std::vector<double> measure_sides(const Topology& topology, const IntrinsicMetric& metric,
+                                  const SidedSurface& surface) {
+    const Topology welded = build_topology(surface.F, surface.vertex_count);
+    std::vector<double> side(topology.edge.size());
+    for (std::size_t h = 0; h < side.size(); ++h) {
+        const std::size_t other = welded.twin[h] < 0 ? h : at(welded.twin[h]);
+        side[h] =
+            (metric.edge_length[topology.edge[h]] + metric.edge_length[topology.edge[other]]) / 2;
+    }
+    return side;
+}
+
+/// Fills every hole with a cone, and returns the half-edge below each of its triangles.
+std::vector<int> fill_holes(SidedSurface& surface) {
+    const Topology open = build_topology(surface.F, surface.vertex_count);
+    const std::vector<std::vector<int>> loops = boundary_loops(open);
+    std::vector<int> below;
+    for (const std::vector<int>& loop : loops) below.insert(below.end(), loop.begin(), loop.end());
+    Eigen::Index row = surface.F.rows();
+    surface.F.conservativeResize(row + static_cast<Eigen::Index>(below.size()), 3);
+    for (const std::vector<int>& loop : loops) {
+        std::vector<double> lengths;
+        for (const int h : loop) lengths.push_back(surface.side[at(h)]);
+        const double spoke = inscribing_radius(lengths);
+        for (const int h : loop) {
+            surface.F.row(row++) << open.target(h), open.origin[at(h)], surface.vertex_count;
+            surface.side.insert(surface.side.end(), {surface.side[at(h)], spoke, spoke});
+        }
+        ++surface.vertex_count;
+    }
+    return below;
+}
+
 void require_sphere(const Topology& topology) {
     const SurfaceCounts counts = count_surface(topology);
     if (counts.components != 1) {
@@ -52,11 +95,10 @@ void require_sphere(const Topology& topology) {
                         counts.components));
     }
     if (counts.euler_characteristic != 2) {
-        throw InputError(
-            InputFault::symmetry,
-            fmt::format("the surface has genus {}, but a map from landmarks needs genus 0; remove "
-                        "the handles, or bring a mirror-symmetric rest shape or frame",
-                        (2 - counts.euler_characteristic) / 2));
+        throw InputError(InputFault::symmetry,
+                         fmt::format("the surface has genus {} that no short cut removes; remove "
+                                     "the handles, or bring a mirror-symmetric rest shape or frame",
+                                     (2 - counts.euler_characteristic) / 2));
     }
 }
 
@@ -75,46 +117,39 @@ SurfacePoint ClosedSurface::to_input(const SurfacePoint& point) const {
 }
 
 ClosedSurface close_surface(const TriangleMesh& mesh, const Topology& topology,
-                            const IntrinsicMetric& metric) {
+                            const IntrinsicMetric& metric, const Context& context) {
     ClosedSurface closed;
     closed.triangle_count = topology.triangle_count;
     closed.vertex = weld_seams(mesh, topology);
-    closed.F = renumber(mesh.F, closed.vertex);
-    int vertex_count = topology.vertex_count;
-    const Topology open = build_topology(closed.F, vertex_count);
-    const std::vector<std::vector<int>> loops = boundary_loops(open);
-    std::vector<double> spoke;
-    for (const std::vector<int>& loop : loops) {
-        std::vector<double> lengths;
-        for (const int h : loop) lengths.push_back(metric.edge_length[topology.edge[at(h)]]);
-        spoke.push_back(inscribing_radius(lengths));
-        closed.cap_half_edge.insert(closed.cap_half_edge.end(), loop.begin(), loop.end());
-    }
-    closed.F.conservativeResize(topology.triangle_count + int(closed.cap_half_edge.size()), 3);
-    int row = topology.triangle_count;
-    for (const std::vector<int>& loop : loops) {
-        for (const int h : loop) {
-            closed.F.row(row++) << open.target(h), open.origin[at(h)], vertex_count;
+    SidedSurface surface;
+    surface.F = renumber(mesh.F, closed.vertex);
+    surface.vertex_count = topology.vertex_count;
+    surface.side = measure_sides(topology, metric, surface);
+    std::vector<int> caps = fill_holes(surface);
+    const Topology filled = build_topology(surface.F, surface.vertex_count);
+    if (count_surface(filled).components == 1 && count_surface(filled).euler_characteristic < 2) {
+        context.write_log(LogLevel::info, "symmetry: the surface has handles; they are cut");
+        std::vector<double> cost = surface.side;
+        for (std::size_t h = 0; h < cost.size(); ++h) {
+            // A cut along a filled hole would have no triangle of the input on one side.
+            const int last = 3 * topology.triangle_count;
+            const bool is_filling = static_cast<int>(h) >= last || filled.twin[h] >= last;
+            if (is_filling) cost[h] = std::numeric_limits<double>::infinity();
         }
-        ++vertex_count;
+        CutSurface cut = cut_handles(surface.F, surface.vertex_count, cost, context);
+        surface.F = std::move(cut.F);
+        surface.vertex_count = cut.vertex_count;
+        const std::vector<int> more = fill_holes(surface);
+        caps.insert(caps.end(), more.begin(), more.end());
+        // A vertex on a cut has two copies; it goes with the one that kept its number.
     }
-    closed.topology = build_topology(closed.F, vertex_count);
+    closed.cap_half_edge = std::move(caps);
+    closed.F = surface.F;
+    closed.topology = build_topology(surface.F, surface.vertex_count);
     require_sphere(closed.topology);
     closed.metric.edge_length.resize(closed.topology.edge_count);
-    const int inner = 3 * topology.triangle_count;
     for (int e = 0; e < closed.topology.edge_count; ++e) {
-        const int h = closed.topology.edge_half_edge[at(e)];
-        if (h < inner) {
-            const int other = closed.topology.twin[at(h)];
-            const int same = other >= 0 && other < inner ? other : h;
-            // Both sides of a seam may have measured it.
-            closed.metric.edge_length[e] = (metric.edge_length[topology.edge[at(h)]] +
-                                            metric.edge_length[topology.edge[at(same)]]) /
-                                           2;
-            continue;
-        }
-        const int apex = std::max(closed.topology.origin[at(h)], closed.topology.target(h));
-        closed.metric.edge_length[e] = spoke[at(apex - topology.vertex_count)];
+        closed.metric.edge_length[e] = surface.side[at(closed.topology.edge_half_edge[at(e)])];
     }
     return closed;
 }

@@ -1,12 +1,14 @@
 #pragma once
 
+#include "kinequad/core/context.h"
 #include "kinequad/mesh/intrinsic_metric.h"
 #include "kinequad/mesh/triangle_mesh.h"
 
 namespace kinequad {
 
-/// A surface made closed: matching seams are welded, every boundary loop that is
-/// left is filled by a cone. Triangles keep their numbers and corners; those of the cones follow.
+/// A surface made closed: matching seams are welded, handles are cut, and
+/// every hole is filled by a cone. Triangles keep their numbers and corners; those of the cones
+/// follow.
 struct ClosedSurface {
     Triangles F;                     ///< triangles over the welded vertices and the apexes
     Topology topology;               ///< of `F`
@@ -24,6 +26,6 @@ struct ClosedSurface {
 /// coincides; `metric` is over the edges of `topology`. Throws `InputError` (symmetry) where the
 /// closed surface is not connected or not of genus 0.
 ClosedSurface close_surface(const TriangleMesh& mesh, const Topology& topology,
-                            const IntrinsicMetric& metric);
+                            const IntrinsicMetric& metric, const Context& context);
 
 }  // namespace kinequad

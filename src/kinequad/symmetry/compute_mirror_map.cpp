@@ -34,12 +34,14 @@ public:
           component_(triangle_components(topology)) {
         const int count = 1 + *std::max_element(component_.begin(), component_.end());
         std::vector<std::vector<int>> members(at(count));
+        local_.resize(component_.size());
         for (int t = 0; t < topology.triangle_count; ++t) {
             members[at(component_[at(t)])].push_back(t);
         }
         for (std::vector<int>& triangles : members) {
             Triangles F(static_cast<Eigen::Index>(triangles.size()), 3);
             for (std::size_t i = 0; i < triangles.size(); ++i) {
+                local_[at(triangles[i])] = static_cast<int>(i);
                 F.row(static_cast<Eigen::Index>(i)) = mesh.F.row(triangles[i]);
             }
             ClosestPoints search(mesh.V, F);
@@ -53,11 +55,13 @@ public:
         choose_partners();
     }
 
-    /// Image of a point of component `component` whose surface faces along `normal`.
-    SurfacePoint image(const Vector3& point, const Vector3& normal, int component) const {
+    /// Image of a point of component `component` whose surface faces along `normal`; `hint` is a
+    /// triangle probably near the image, or -1.
+    SurfacePoint image(const Vector3& point, const Vector3& normal, int component, int hint) const {
         const Vector3 goal = plane_.reflect(point);
         const Component& partner = components_[at(partner_[at(component)])];
-        const SurfacePoint local = partner.search.find(goal).point;
+        const int local_hint = hint < 0 ? -1 : local_[at(hint)];
+        const SurfacePoint local = partner.search.find(goal, local_hint).point;
         const SurfacePoint nearest{partner.triangle[at(local.triangle)], local.barycentric};
         const Vector3 facing = normal - 2 * normal.dot(plane_.normal) * plane_.normal;
         if (normals_.row(nearest.triangle).dot(facing) >= 0) return nearest;
@@ -96,12 +100,14 @@ private:
         for (const Component& component : components_) {
             std::vector<int> votes(components_.size(), 0);
             if (components_.size() == 1) votes[0] = 1;
+            int hint = -1;
             const std::size_t step = std::max<std::size_t>(1, component.triangle.size() / 500);
             for (std::size_t i = 0; components_.size() > 1 && i < component.triangle.size();
                  i += step) {
                 const int t = component.triangle[i];
                 const Vector3 centre = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
-                ++votes[at(component_[at(all.find(plane_.reflect(centre)).point.triangle)])];
+                hint = all.find(plane_.reflect(centre), hint).point.triangle;
+                ++votes[at(component_[at(hint)])];
             }
             const auto most = std::max_element(votes.begin(), votes.end());
             partner_.push_back(static_cast<int>(most - votes.begin()));
@@ -112,10 +118,43 @@ private:
     const Topology& topology_;
     const MirrorPlane& plane_;
     std::vector<int> component_;
+    std::vector<int> local_;  ///< number of a triangle within its component
     std::vector<Component> components_;
     std::vector<int> partner_;
     Positions normals_;
 };
+
+/// Images of all vertices, in breadth-first order, so that each search begins at the image of a
+/// neighbour: without a hint a search costs a hundred times as much.
+std::vector<SurfacePoint> locate_vertices(const TriangleMesh& mesh, const Topology& topology,
+                                          const MirroredSurface& surface, const Context& context) {
+    std::vector<SurfacePoint> image(at(topology.vertex_count));
+    std::vector<int> hint(image.size(), -1);
+    std::vector<bool> is_queued(image.size(), false);
+    std::vector<int> queue;
+    for (int seed = 0; seed < topology.vertex_count; ++seed) {
+        if (is_queued[at(seed)] || topology.vertex_half_edge[at(seed)] < 0) continue;
+        is_queued[at(seed)] = true;
+        queue.assign(1, seed);
+        for (std::size_t i = 0; i < queue.size(); ++i) {
+            if (i % 256 == 0) context.check_cancelled();
+            const int v = queue[i];
+            image[at(v)] = surface.image(mesh.V.row(v).transpose(), surface.vertex_normal(v),
+                                         surface.component_of(topology.vertex_half_edge[at(v)] / 3),
+                                         hint[at(v)]);
+            for (const int h : outgoing_half_edges(topology, v)) {
+                for (const int w :
+                     {topology.target(h), topology.origin[at(Topology::previous(h))]}) {
+                    if (is_queued[at(w)]) continue;
+                    is_queued[at(w)] = true;
+                    hint[at(w)] = image[at(v)].triangle;
+                    queue.push_back(w);
+                }
+            }
+        }
+    }
+    return image;
+}
 
 }  // namespace
 
@@ -128,24 +167,16 @@ SymmetryMap compute_mirror_map(const TriangleMesh& mesh, const MirrorPlane& plan
     SymmetryMap map;
     map.method = "mirror plane";
     map.quality.mirror_residual_percent = plane.residual_percent;
-    map.vertex_image.resize(at(topology.vertex_count));
-    parallel_for(map.vertex_image.size(), 256, context, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const int v = static_cast<int>(i);
-            const int h = topology.vertex_half_edge[i];
-            if (h < 0) continue;
-            map.vertex_image[i] = surface.image(mesh.V.row(v).transpose(), surface.vertex_normal(v),
-                                                surface.component_of(h / 3));
-        }
-    });
+    map.vertex_image = locate_vertices(mesh, topology, surface, context);
     map.centre_image.resize(at(topology.triangle_count));
     parallel_for(map.centre_image.size(), 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const int t = static_cast<int>(i);
             const Vector3 centre =
                 (surface.corner(t, 0) + surface.corner(t, 1) + surface.corner(t, 2)) / 3;
+            const int hint = map.vertex_image[at(mesh.F(t, 0))].triangle;
             map.centre_image[i] =
-                surface.image(centre, surface.triangle_normal(t), surface.component_of(t));
+                surface.image(centre, surface.triangle_normal(t), surface.component_of(t), hint);
         }
     });
     const Transport transport =

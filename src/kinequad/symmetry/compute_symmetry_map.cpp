@@ -126,7 +126,7 @@ SymmetryMap compute_symmetry_map(const TriangleMesh& mesh, const IntrinsicMetric
                                  const Context& context) {
     check_landmarks(landmarks, static_cast<int>(mesh.V.rows()));
     const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));
-    const ClosedSurface surface = close_surface(mesh, topology, metric);
+    const ClosedSurface surface = close_surface(mesh, topology, metric, context);
     const SphereLandmarks marks = to_sphere_landmarks(landmarks, surface);
     context.report_progress("symmetry", 0);
     const SurfaceDistances distances =

@@ -18,13 +18,13 @@ struct SymmetryOptions {
     double landmark_percent = 8;
 };
 
-/// Computes the bilateral intrinsic symmetry of a surface of genus 0 from landmarks: conformal map
+/// Computes the bilateral intrinsic symmetry of a surface from landmarks: conformal map
 /// to the sphere, least-squares anti-involution, smooth map of the landmarks to symmetric places.
 /// `mesh` holds the positions of a reference shape, which only decide which seams coincide and how
 /// distances are reported; `metric` is over the edges of `build_topology(mesh.F, n)`, the mean
 /// metric or that of the reference. Landmarks in any order; the order in a pair does not matter.
 /// Throws `InputError` (symmetry) where landmarks repeat, are too few, or one disagrees with the
-/// others; where the surface has handles or parts that do not join; where the result is no
+/// others; where the surface has parts that do not join; where the result is no
 /// involution. [DuTu], [Panozzo 2012], docs/symmetry.md
 SymmetryMap compute_symmetry_map(const TriangleMesh& mesh, const IntrinsicMetric& metric,
                                  const Landmarks& landmarks, const SymmetryOptions& options,

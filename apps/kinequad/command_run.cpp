@@ -156,6 +156,12 @@ void add_method_options(CLI::App& app, RunCommand& command) {
                     default_alpha(CrossFieldMethod::paper)));
     app.add_option("--curvature", options.curvature, "Influence of the curvature (convex only)")
         ->capture_default_str();
+    app.add_option(
+           "--feature-angle", options.feature_angle,
+           "Align crosses with edges across which the reference frame turns by more than this many "
+           "degrees; 0: none")
+        ->check(CLI::Range(0.0, 180.0))
+        ->capture_default_str();
     app.add_option("--singularity-cost", options.singularity_cost,
                    "Energy that one singularity may cost, in squared radians (convex only)")
         ->capture_default_str();

@@ -71,15 +71,10 @@ public:
                 if (!strain.valid()) continue;
                 Sums& sums = sums_[t];
                 const double square = strain.x * strain.x + strain.y * strain.y;
+                if (!(square > 0)) continue;
                 // The fourth power of the direction, times the squared modulus of the deviator.
                 const double re = strain.x * strain.x - strain.y * strain.y;
                 const double im = 2 * strain.x * strain.y;
-                const double bounded = 1 / (strain.trace * strain.trace);
-                sums.frames += 1;
-                sums.shear_re += bounded * re;
-                sums.shear_im += bounded * im;
-                sums.shear += bounded * square;
-                if (!(square > 0)) continue;
                 const double s = std::min(largest_stretch, strain.stretch());
                 const double factor = s / square;
                 sums.stretch_re += factor * re;
@@ -94,17 +89,12 @@ public:
         const Eigen::Index count = topology_.triangle_count;
         DeformationTensors tensors;
         tensors.frame_count = frame_count;
-        tensors.shear.resize(count);
-        tensors.shear_strength.resize(count);
         tensors.stretch_direction_sum.resize(count);
         tensors.stretch_sum.resize(count);
         tensors.stretch_square_sum.resize(count);
         tensors.curvature = Eigen::VectorXcd::Zero(count);
         for (Eigen::Index t = 0; t < count; ++t) {
             const Sums& sums = sums_[static_cast<std::size_t>(t)];
-            const double frames = std::max(1.0, sums.frames);
-            tensors.shear[t] = Complex(sums.shear_re, sums.shear_im) / frames;
-            tensors.shear_strength[t] = sums.shear / frames;
             tensors.stretch_direction_sum[t] = Complex(sums.stretch_re, sums.stretch_im);
             tensors.stretch_sum[t] = sums.stretch;
             tensors.stretch_square_sum[t] = sums.stretch_square;
@@ -114,8 +104,6 @@ public:
 
 private:
     struct Sums {
-        double frames = 0;
-        double shear_re = 0, shear_im = 0, shear = 0;
         double stretch_re = 0, stretch_im = 0, stretch = 0, stretch_square = 0;
     };
 

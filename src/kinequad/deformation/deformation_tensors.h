@@ -9,12 +9,8 @@ namespace kinequad {
 /// `IntrinsicMetric`), so that theta and theta + pi/2 are the same cross.
 struct DeformationTensors {
     int frame_count = 0;
-    /// m: `mean_j tau_j^2 exp(4 i theta_j)`, `tau = |s1^2 - s2^2| / (s1^2 + s2^2)` in [0, 1]. Its
-    /// modulus says how strongly and how consistently the triangle is sheared. docs/deformation.md
-    Eigen::VectorXcd shear;
-    /// m: `mean_j tau_j^2`, the modulus that `shear` would have if all frames agreed.
-    Eigen::VectorXd shear_strength;
-    /// m: `sum_j s_j exp(4 i theta_j)`, `s = s1 / s2 - 1` [Du and Tu, eq. 7].
+    /// m: `sum_j s_j exp(4 i theta_j)`, `s = s1 / s2 - 1` [Du and Tu, eq. 7]. Its modulus
+    /// says how strongly and how consistently the triangle is stretched.
     Eigen::VectorXcd stretch_direction_sum;
     /// m: `sum_j s_j` and `sum_j s_j^2` [Du and Tu, eq. 8].
     Eigen::VectorXd stretch_sum;

@@ -18,19 +18,24 @@ using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int
 constexpr double steepness = 0.8;
 constexpr double margin = 0.1;
 constexpr double over_relaxation = 1.6;
-constexpr int most_rounds = 400;
+constexpr int most_weighted_rounds = 100;
+constexpr int most_plain_rounds = 500;
 
-double weight_of(bool anti, Complex direction) {
-    if (direction.imag() == 0) return 1;
-    return anti ? shear_weight : turn_weight;
-}
+/// What the imaginary parts of a and b count in a least-squares solve, against their real parts.
+struct PartWeights {
+    double turn = 1;   ///< Im a
+    double shear = 1;  ///< Im b
+};
+constexpr PartWeights weighted{turn_weight, shear_weight};
+constexpr PartWeights plain{};
 
-Matrix6 quadratic_matrix(const TargetShape& shape) {
+Matrix6 quadratic_matrix(const TargetShape& shape, const PartWeights& weights) {
     Matrix6 sum = Matrix6::Zero();
     for (const bool anti : {false, true}) {
         for (const Complex direction : {Complex(1, 0), Complex(0, 1)}) {
             const Vector6 f = shape.functional(direction, anti);
-            sum += 4 * shape.area * weight_of(anti, direction) * f * f.transpose();
+            const double weight = direction.imag() == 0 ? 1 : anti ? weights.shear : weights.turn;
+            sum += 4 * shape.area * weight * f * f.transpose();
         }
     }
     return sum;
@@ -54,10 +59,10 @@ Permutation chains_last(const SparseMatrix& lower, int vertex_columns) {
 class LeastSquaresMap {
 public:
     LeastSquaresMap(const MapVariables& variables, TriangleSystem& system,
-                    const std::vector<TargetShape>& shapes)
-        : variables_(variables), system_(system), shapes_(shapes) {
+                    const std::vector<TargetShape>& shapes, const PartWeights& weights)
+        : variables_(variables), system_(system), shapes_(shapes), weights_(weights) {
         SparseMatrix lower = system.assemble(
-            [&](int t) { return quadratic_matrix(shapes[static_cast<std::size_t>(t)]); });
+            [&](int t) { return quadratic_matrix(shapes[static_cast<std::size_t>(t)], weights); });
         order_ = chains_last(lower, variables.vertex_columns);
         SparseMatrix ordered(lower.rows(), lower.cols());
         ordered.selfadjointView<Eigen::Lower>() =
@@ -75,8 +80,8 @@ public:
             const TargetShape& shape = shapes_[static_cast<std::size_t>(t)];
             const auto& [a, b] = parts[static_cast<std::size_t>(t)];
             return 4 * shape.area *
-                   (shape.functional({a.real(), turn_weight * a.imag()}, false) +
-                    shape.functional({b.real(), shear_weight * b.imag()}, true));
+                   (shape.functional({a.real(), weights_.turn * a.imag()}, false) +
+                    shape.functional({b.real(), weights_.shear * b.imag()}, true));
         });
         return order_.transpose() * factor_.solve(order_ * right).eval();
     }
@@ -99,6 +104,7 @@ private:
     const MapVariables& variables_;
     TriangleSystem& system_;
     const std::vector<TargetShape>& shapes_;
+    PartWeights weights_;
     Permutation order_;
     Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> factor_;
 };
@@ -114,6 +120,32 @@ std::pair<Complex, Complex> projected(Complex a, Complex b) {
     return {Complex(new_x + margin, a.imag()), y > 0 ? b * (new_y / y) : b};
 }
 
+int count_reversed(const std::vector<TargetShape>& shapes, const std::vector<Complex>& corners) {
+    int count = 0;
+    for (std::size_t t = 0; t < shapes.size(); ++t) {
+        count += keeps_direction(shapes[t], &corners[3 * t]) ? 0 : 1;
+    }
+    return count;
+}
+
+/// Alternates between the nearest maps of single triangles that keep their direction and the
+/// nearest map of the whole surface, until no triangle of `map` is reversed.
+void project(const LeastSquaresMap& least_squares, const MapVariables& variables,
+             const std::vector<TargetShape>& shapes, int most_rounds, SeamlessMap& map,
+             const Context& context) {
+    std::vector<std::pair<Complex, Complex>> parts(shapes.size());
+    for (int round = 0; round < most_rounds && map.reversed_triangles > 0; ++round) {
+        context.check_cancelled();
+        std::vector<Complex> corners = variables.corner_coordinates(map.x);
+        for (std::size_t t = 0; t < shapes.size(); ++t) {
+            parts[t] = projected(shapes[t].conformal_part(&corners[3 * t]),
+                                 shapes[t].anticonformal_part(&corners[3 * t]));
+        }
+        map.x = least_squares.solve(parts);
+        map.reversed_triangles = count_reversed(shapes, variables.corner_coordinates(map.x));
+    }
+}
+
 }  // namespace
 
 bool keeps_direction(const TargetShape& shape, const Complex* corners) {
@@ -122,10 +154,10 @@ bool keeps_direction(const TargetShape& shape, const Complex* corners) {
 
 SeamlessMap solve_seamless_map(const MapVariables& variables, TriangleSystem& system,
                                const std::vector<TargetShape>& shapes, const Context& context) {
-    const LeastSquaresMap least_squares(variables, system, shapes);
-    std::vector<std::pair<Complex, Complex>> parts(shapes.size(), {Complex(1, 0), Complex(0, 0)});
+    const LeastSquaresMap least_squares(variables, system, shapes, weighted);
     SeamlessMap map;
-    map.x = least_squares.solve(parts);
+    map.x = least_squares.solve(
+        std::vector<std::pair<Complex, Complex>>(shapes.size(), {Complex(1, 0), Complex(0, 0)}));
 
     const Eigen::PartialPivLU<Eigen::MatrixXd> lattice(variables.lattice);
     const auto integers_of = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
@@ -136,19 +168,12 @@ SeamlessMap solve_seamless_map(const MapVariables& variables, TriangleSystem& sy
     map.stiffness =
         0.5 * variables.lattice.transpose() * least_squares.chain_block() * variables.lattice;
 
-    for (int round = 0; round < most_rounds; ++round) {
-        context.check_cancelled();
-        const std::vector<Complex> corners = variables.corner_coordinates(map.x);
-        map.reversed_triangles = 0;
-        for (std::size_t t = 0; t < shapes.size(); ++t) {
-            map.reversed_triangles += keeps_direction(shapes[t], &corners[3 * t]) ? 0 : 1;
-        }
-        if (map.reversed_triangles == 0) break;
-        for (std::size_t t = 0; t < shapes.size(); ++t) {
-            parts[t] = projected(shapes[t].conformal_part(&corners[3 * t]),
-                                 shapes[t].anticonformal_part(&corners[3 * t]));
-        }
-        map.x = least_squares.solve(parts);
+    map.reversed_triangles = count_reversed(shapes, variables.corner_coordinates(map.x));
+    project(least_squares, variables, shapes, most_weighted_rounds, map, context);
+    if (map.reversed_triangles > 0) {
+        // Projections meet for certain where both are taken in one norm, the plain one.
+        const LeastSquaresMap plain_squares(variables, system, shapes, plain);
+        project(plain_squares, variables, shapes, most_plain_rounds, map, context);
     }
     map.integers = integers_of(map.x);
     return map;

@@ -42,8 +42,6 @@ Json check_record(const Result& result) {
 
 Json deformation_record(const DeformationTensors& tensors) {
     return {{"frame_count", tensors.frame_count},
-            {"shear", list(tensors.shear)},
-            {"shear_strength", list(tensors.shear_strength)},
             {"stretch_direction_sum", list(tensors.stretch_direction_sum)},
             {"stretch_sum", list(tensors.stretch_sum)},
             {"stretch_square_sum", list(tensors.stretch_square_sum)},

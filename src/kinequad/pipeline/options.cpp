@@ -28,6 +28,9 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape) {
           fmt::format("--curvature {}: has to be at least 0", options.curvature));
     check(std::isfinite(options.singularity_cost) && options.singularity_cost >= 0,
           fmt::format("--singularity-cost {}: has to be at least 0", options.singularity_cost));
+    check(options.feature_angle >= 0 && options.feature_angle <= 180,
+          fmt::format("--feature-angle {}: has to be between 0 and 180 degrees",
+                      options.feature_angle));
     check(options.relax_rounds >= 0,
           fmt::format("--relax {}: has to be at least 0", options.relax_rounds));
     if (options.reference == Options::rest_shape) {

@@ -31,6 +31,9 @@ struct Options {
     /// With 0 the run sees a single pose, the reference frame.
     std::optional<double> alpha;
     double curvature = 0.1;  ///< influence of the curvature on the cross field (`convex` only)
+    /// Edges across which the reference frame turns by more than this are features, which crosses
+    /// are aligned with, in degrees; 0: none.
+    double feature_angle = 0;
     double singularity_cost = 0.08;  ///< energy that a singularity may cost, rad^2 (`convex` only)
     /// Empty: `mean`, and `reference` where `alpha` is 0.
     std::optional<MetricChoice> metric;

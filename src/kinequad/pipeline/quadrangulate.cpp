@@ -17,6 +17,7 @@
 #include "kinequad/field/verify_cross_field.h"
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/io/memory_sequence.h"
+#include "kinequad/mesh/feature_edges.h"
 #include "kinequad/relax/relax_quads.h"
 
 namespace kinequad {
@@ -77,6 +78,10 @@ CrossField make_cross_field(const Result& result, const Context& context) {
     options.method = result.options.field;
     options.singularity_cost = result.options.singularity_cost;
     options.edge_length = result.edge_length;
+    if (result.options.feature_angle > 0) {
+        options.feature_edges =
+            find_feature_edges(result.topology, result.reference, result.options.feature_angle);
+    }
     CrossField field =
         compute_cross_field(result.topology, result.metric, targets, options, context);
     require_valid_field(verify_cross_field(result.topology, result.metric, field, options));

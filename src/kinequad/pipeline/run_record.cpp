@@ -24,6 +24,7 @@ Json options_record(const Options& options) {
         {"field", options.field == CrossFieldMethod::paper ? "paper" : "convex"},
         {"alpha", *options.alpha},
         {"curvature", options.curvature},
+        {"feature_angle", options.feature_angle},
         {"singularity_cost", options.singularity_cost},
         {"metric", options.metric == MetricChoice::mean ? "mean" : "reference"},
         {"reference", rest ? Json("rest") : Json(options.reference)},

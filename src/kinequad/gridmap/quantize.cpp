@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -257,10 +258,18 @@ private:
 
 Quantization quantize(const ConeTriangulation& cone, const Eigen::MatrixXd& stiffness,
                       const Eigen::VectorXd& best, double quad_count, const Context& context) {
-    double scale = std::sqrt(quad_count / cone.area());
+    // Scales are tried around the one that should give the wanted count; where cones block each
+    // other at one, a slightly different one often works, and a much larger one nearly always.
+    constexpr std::array<double, 12> detours = {1,    1.01, 0.99, 1.02, 0.98, 1.03,
+                                                0.97, 1.1,  1.2,  1.4,  1.8,  2.5};
+    double centre = std::sqrt(quad_count / cone.area());
+    std::size_t blocked = 0;
     std::optional<Quantization> closest;
-    int failures = 0;
-    for (int attempt = 0; attempt < 8; ++attempt) {
+    const auto miss = [&](const Quantization& q) { return std::abs(q.quads / quad_count - 1); };
+    for (int attempt = 0; attempt < 16 && blocked < detours.size(); ++attempt) {
+        // Once there is a result, far detours cannot bring a closer one.
+        if (closest && detours[blocked] > 1.05) break;
+        const double scale = centre * detours[blocked];
         ConeTriangulation scaled = cone;
         scaled.scale(scale);
         Rounding rounding(std::move(scaled), stiffness, scale * best, context);
@@ -269,15 +278,19 @@ Quantization quantize(const ConeTriangulation& cone, const Eigen::MatrixXd& stif
             context.write_log(
                 LogLevel::info,
                 fmt::format("gridmap: cones block each other at scale {:.3f}", scale));
-            scale *= failures < 2 ? (failures == 0 ? 1.02 : 0.96) : 1.15;
-            ++failures;
+            ++blocked;
             continue;
         }
         const Quantization found{*integers, scale, rounding.quads()};
-        const auto miss = [&](const Quantization& q) { return std::abs(q.quads / quad_count - 1); };
-        if (!closest || miss(found) < miss(*closest)) closest = found;
+        const bool is_closer = !closest || miss(found) < miss(*closest);
+        if (is_closer) closest = found;
         if (miss(*closest) < 0.02 || (miss(*closest) < 0.04 && attempt >= 3)) break;
-        scale *= std::sqrt(quad_count / found.quads);
+        if (is_closer) {
+            centre = scale * std::sqrt(quad_count / found.quads);
+            blocked = 0;
+        } else {
+            ++blocked;
+        }
     }
     if (!closest) {
         throw GridMapError(

@@ -45,6 +45,7 @@ int run_program(int argc, char** argv) {
     add_measure_command(program, session);
     add_synth_command(program, session);
     add_render_command(program, session);
+    add_symmetry_command(program, session);
     add_convert_command(program, session);
     try {
         program.parse(argc, argv);

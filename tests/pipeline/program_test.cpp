@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "kinequad/io/open_sequence.h"
+#include "kinequad/mesh/triangle_mesh.h"
 #include "run_program.h"
 
 namespace kinequad {
@@ -49,7 +51,7 @@ std::vector<std::string> names_in(const std::filesystem::path& folder) {
 TEST(Program, ExplainsItself) {
     const ScratchFolder scratch;
     for (const char* arguments : {"--help", "run --help", "measure --help", "synth --help",
-                                  "render --help", "convert --help"}) {
+                                  "render --help", "convert --help", "symmetry --help"}) {
         const Outcome outcome = run_program(scratch, arguments);
         EXPECT_EQ(outcome.code, 0) << arguments;
         EXPECT_NE(outcome.out.find("--help"), std::string::npos) << arguments;
@@ -212,6 +214,36 @@ TEST(Program, ResultsDoNotDependOnTheNumberOfThreads) {
                         content_of(scratch / "out1" / name))
                 << name << " differs with " << threads << " threads";
         }
+    }
+}
+
+TEST(Program, FindsTheSymmetryOfACreatureWithoutAndWithLandmarks) {
+    const ScratchFolder scratch;
+    make_biped(scratch);
+    const auto truth =
+        nlohmann::json::parse(content_of(scratch / "biped" / "mirror.json"))["mirror"];
+    const TriangleMesh creature = [&] {
+        const std::unique_ptr<FrameSource> source = open_sequence((scratch / "biped").string());
+        return TriangleMesh{source->read_rest_shape(), source->triangles()};
+    }();
+    const double diagonal = bounding_box_diagonal(creature.V);
+    for (const char* landmarks : {"", " --landmarks biped/landmarks.json"}) {
+        SCOPED_TRACE(landmarks);
+        const Outcome outcome =
+            run_program(scratch, std::string("symmetry biped -o map.json -q") + landmarks);
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        const auto map = nlohmann::json::parse(content_of(scratch / "map.json"));
+        ASSERT_EQ(map["image"].size(), truth.size());
+        double sum = 0;
+        for (std::size_t v = 0; v < truth.size(); ++v) {
+            const auto& image = map["image"][v];
+            const SurfacePoint point{image[0], Vector3(image[1], image[2], image[3])};
+            sum += (position_of(point, creature.V, creature.F) -
+                    creature.V.row(truth[v].get<int>()).transpose())
+                       .norm();
+        }
+        EXPECT_LT(sum / static_cast<double>(truth.size()), 0.003 * diagonal);
+        EXPECT_EQ(map["stationary"].size(), 1U);
     }
 }
 

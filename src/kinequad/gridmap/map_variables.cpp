@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kinequad/core/error.h"
+#include "kinequad/gridmap/corner_form.h"
 
 namespace kinequad {
 namespace {
@@ -14,36 +15,12 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using IntegerForm = LinearForm<long>;
-
-/// A complex number whose parts are forms in the whole variables.
-struct PlaneForm {
-    IntegerForm u;
-    IntegerForm v;
-};
-
-IntegerForm negated(const IntegerForm& form) { return add_scaled(IntegerForm{}, -1L, form); }
-
-PlaneForm turned(const PlaneForm& form, int quarters) {
-    switch (quarters & 3) {
-        case 1:
-            return {negated(form.v), form.u};
-        case 2:
-            return {negated(form.u), negated(form.v)};
-        case 3:
-            return {form.v, negated(form.u)};
-        default:
-            return form;
-    }
-}
-
-PlaneForm add(const PlaneForm& a, const PlaneForm& b) {
-    return {add_scaled(a.u, 1L, b.u), add_scaled(a.v, 1L, b.v)};
-}
+using IntegerCorner = CornerForm<long>;
 
 /// Where the coordinates of one corner come from: `i^turns z_v + translation`.
 struct CornerFrame {
     int turns = 0;
-    PlaneForm translation;
+    IntegerCorner translation;
 };
 
 class Builder {
@@ -109,7 +86,7 @@ private:
         CornerFrame result;
         result.turns = (frame.turns + turns) & 3;
         const int number = translation_[at(std::min(h, other))];
-        const PlaneForm shift = {{{number, 1}}, {{number + 1, 1}}};
+        const IntegerCorner shift = {{{number, 1}}, {{number + 1, 1}}};
         if (h < other) {
             result.translation = add(turned(frame.translation, turns), shift);
         } else {
@@ -149,9 +126,9 @@ private:
 
     /// `z = i^turns z + translation` after one turn around the vertex.
     std::array<IntegerForm, 2> closing_rows(int v, const CornerFrame& frame) const {
-        PlaneForm closing = frame.translation;
+        IntegerCorner closing = frame.translation;
         if (nodes_[at(v)] != 0) {
-            const PlaneForm z = vertex_form(v);
+            const IntegerCorner z = vertex_form(v);
             closing = add(closing, add(turned(z, frame.turns), turned(z, 2)));
         } else if (frame.turns != 0) {
             throw GridMapError(fmt::format(
@@ -162,14 +139,14 @@ private:
     }
 
     /// The whole part of the coordinates of a vertex in its first chart.
-    PlaneForm vertex_form(int v) const {
+    IntegerCorner vertex_form(int v) const {
         const auto form = [](VertexCoordinate c) {
             return c.is_whole ? IntegerForm{{c.number, 1}} : IntegerForm{};
         };
         return {form(coordinate_[at(v)][0]), form(coordinate_[at(v)][1])};
     }
 
-    PlaneForm corner_form(int h) const {
+    IntegerCorner corner_form(int h) const {
         const CornerFrame& frame = frame_[at(h)];
         return add(turned(vertex_form(mesh_.origin[at(h)]), frame.turns), frame.translation);
     }
@@ -185,7 +162,7 @@ private:
                 throw GridMapError(fmt::format(
                     "the cross field is not aligned with the boundary at vertex {}", w));
             }
-            const PlaneForm difference = add(corner_form(end), turned(corner_form(h), 2));
+            const IntegerCorner difference = add(corner_form(end), turned(corner_form(h), 2));
             rows_.push_back(k == 0 ? difference.u : difference.v);
         }
     }
@@ -245,7 +222,7 @@ private:
         result.row_start.push_back(0);
         result.integer_part.resize(2 * mesh_.origin.size());
         for (int h = 0; h < static_cast<int>(mesh_.origin.size()); ++h) {
-            const PlaneForm form = corner_form(h);
+            const IntegerCorner form = corner_form(h);
             for (int k = 0; k < 2; ++k)
                 add_corner_row(result, h, k, k == 0 ? form.u : form.v, reals, integers);
         }

@@ -1,7 +1,8 @@
 #include "kinequad/gridmap/refine_map.h"
 
-#include <array>
 #include <cmath>
+
+#include "kinequad/gridmap/corner_form.h"
 
 namespace kinequad {
 namespace {
@@ -9,31 +10,7 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using Form = LinearForm<double>;
-
-/// Coordinates of a corner as forms in the columns.
-struct CornerForm {
-    Form u;
-    Form v;
-};
-
-Form negated(const Form& form) { return add_scaled(Form{}, -1.0, form); }
-
-CornerForm turned(const CornerForm& form, int quarters) {
-    switch (quarters & 3) {
-        case 1:
-            return {negated(form.v), form.u};
-        case 2:
-            return {negated(form.u), negated(form.v)};
-        case 3:
-            return {form.v, negated(form.u)};
-        default:
-            return form;
-    }
-}
-
-CornerForm add(const CornerForm& a, const CornerForm& b) {
-    return {add_scaled(a.u, 1.0, b.u), add_scaled(a.v, 1.0, b.v)};
-}
+using RealCorner = CornerForm<double>;
 
 /// Rows of `MapVariables` opened up for changes. New vertex columns are numbered after the chain
 /// columns until `close` puts them where they belong.
@@ -51,9 +28,9 @@ public:
         const int n = Topology::next(h);
         const int g = mesh_.twin[at(h)];
         const int turns = mesh_.rotation[at(h)];
-        const CornerForm a = corners_[at(h)];
-        const CornerForm b = corners_[at(n)];
-        CornerForm middle;
+        const RealCorner a = corners_[at(h)];
+        const RealCorner b = corners_[at(n)];
+        RealCorner middle;
         if (g >= 0) {
             middle = {new_column((value(a.u) + value(b.u)) / 2),
                       new_column((value(a.v) + value(b.v)) / 2)};
@@ -66,9 +43,9 @@ public:
                 middle = {a.u, new_column((value(a.v) + value(b.v)) / 2)};
             }
         }
-        CornerForm across;
+        RealCorner across;
         if (g >= 0) {
-            const CornerForm shift =
+            const RealCorner shift =
                 add(corners_[at(Topology::next(g))], turned(turned(a, turns), 2));
             across = add(turned(middle, turns), shift);
         }
@@ -91,7 +68,7 @@ public:
         variables_.row_start.assign(1, 0);
         variables_.column.clear();
         variables_.coefficient.clear();
-        for (const CornerForm& corner : corners_) {
+        for (const RealCorner& corner : corners_) {
             for (const Form* form : {&corner.u, &corner.v}) {
                 for (const auto& [column, c] : *form) {
                     variables_.column.push_back(renumber(column));
@@ -126,9 +103,9 @@ private:
     }
 
     /// Mirrors what `ChartedMesh::split_edge` did to the corners of the triangle of `h`.
-    void put(int h, int fresh, const CornerForm& middle) {
-        const CornerForm b = corners_[at(Topology::next(h))];
-        const CornerForm c = corners_[at(Topology::previous(h))];
+    void put(int h, int fresh, const RealCorner& middle) {
+        const RealCorner b = corners_[at(Topology::next(h))];
+        const RealCorner c = corners_[at(Topology::previous(h))];
         corners_.resize(at(fresh + 3));
         corners_[at(fresh)] = middle;
         corners_[at(fresh + 1)] = b;
@@ -139,7 +116,7 @@ private:
     ChartedMesh& mesh_;
     MapVariables& variables_;
     std::vector<double> values_;
-    std::vector<CornerForm> corners_;
+    std::vector<RealCorner> corners_;
 };
 
 }  // namespace

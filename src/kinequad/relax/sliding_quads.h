@@ -92,6 +92,8 @@ private:
     bool improve(int v, double distance_limit, const ClosestPoints& surface);
     void search_around(int v, const std::function<double()>& cost);
     bool move_onto(int v, const SurfacePoint& goal);
+    /// The quads in the reference frame as triangles: 2q and 2q + 1 of quad q.
+    ClosestPoints reference_quads() const;
     std::vector<int> vertices_around(int quad, int reach) const;
     double distance_of(int quad, const ClosestPoints& surface) const;
     void place(int v, const SurfacePoint& point);

@@ -1,0 +1,205 @@
+// What relaxation does to quads that fold, leave the surface or miss its tips: vertices search
+// around.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "kinequad/mesh/trace_geodesic.h"
+#include "kinequad/relax/sliding_quads.h"
+
+namespace kinequad {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr FoldBarrier relaxing_barrier;
+/// A quad that covers an extremity may become this slanted, but no more.
+constexpr double least_covering_jacobian = 0.15;
+
+}  // namespace
+
+/// Moves vertex `v` to where `cost` is least among places around it, if that is less than here.
+void SlidingQuads::search_around(int v, const std::function<double()>& cost) {
+    constexpr int directions = 12;
+    const Positions& X = frames_[0].vertices;
+    const double size = (X.row(neighbour(*corners_of(v).begin(), 1)) - X.row(v)).norm();
+    const SurfacePoint before = quads_.vertex[at(v)];
+    SurfacePoint best = before;
+    double least = cost();
+    for (const double length : {0.9, 0.5, 0.25, 0.12, 0.06, 0.03}) {
+        for (int i = 0; i < directions; ++i) {
+            const double angle = 2 * std::numbers::pi * (i + 5 * length) / directions;
+            const Vector2 step = length * size * Vector2(std::cos(angle), std::sin(angle));
+            place(v, trace_geodesic(topology_, metric_, before, step));
+            const double value = cost();
+            if (value < least) {
+                least = value;
+                best = quads_.vertex[at(v)];
+            }
+        }
+    }
+    place(v, best);
+}
+
+/// The corners of a quad and all vertices up to `reach` quads farther on, in ascending order.
+std::vector<int> SlidingQuads::vertices_around(int quad, int reach) const {
+    std::vector<int> around;
+    for (int k = 0; k < 4; ++k) around.push_back(quads_.Q(quad, k));
+    for (int ring = 0; ring < reach; ++ring) {
+        std::vector<int> wider = around;
+        for (const int v : around) {
+            for (const int c : corners_of(v)) {
+                wider.insert(wider.end(), {neighbour(c, 1), neighbour(c, 2), neighbour(c, 3)});
+            }
+        }
+        std::sort(wider.begin(), wider.end());
+        wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
+        around = std::move(wider);
+    }
+    std::sort(around.begin(), around.end());
+    return around;
+}
+
+int SlidingQuads::unfold_pass(double safe_jacobian, int reach, const Context& context) {
+    const FoldBarrier barrier{safe_jacobian, 100};
+    // The reference frame decides; the others only choose among what unfolds it alike.
+    const auto cost = [&](int v) {
+        double sum = 0.1 * cost_around(v, relaxing_barrier);
+        for (const int c : corners_of(v)) {
+            sum += static_cast<double>(frames_.size()) *
+                   quad_cost(corners_in(frames_[0], c / 4), barrier);
+        }
+        return sum;
+    };
+    int folded = 0;
+    for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
+        if (least_scaled_jacobian(corners_in(frames_[0], q)) >= safe_jacobian) continue;
+        context.check_cancelled();
+        for (const int v : vertices_around(q, reach)) {
+            if (is_pinned_[at(v)] == 0) search_around(v, [&] { return cost(v); });
+        }
+        folded += least_scaled_jacobian(corners_in(frames_[0], q)) <= 0 ? 1 : 0;
+    }
+    return folded;
+}
+
+/// How far the middle of a quad and of its edges are from the input in the reference frame.
+double SlidingQuads::distance_of(int quad, const ClosestPoints& surface) const {
+    const QuadCorners p = corners_in(frames_[0], quad);
+    int hint = quads_.vertex[at(quads_.Q(quad, 0))].triangle;
+    double farthest = 0;
+    const auto look = [&](const Vector3& point) {
+        const ClosestPoint closest = surface.find(point, hint);
+        hint = closest.point.triangle;
+        farthest = std::max(farthest, closest.squared_distance);
+    };
+    look((p[0] + p[1] + p[2] + p[3]) / 4);
+    for (std::size_t k = 0; k < 4; ++k) look((p[k] + p[(k + 1) % 4]) / 2);
+    return std::sqrt(farthest);
+}
+
+int SlidingQuads::hug_surface(double limit, int reach, const ClosestPoints& surface,
+                              const Context& context) {
+    constexpr double distance_weight = 40;
+    const FoldBarrier barrier{0.2, 100};
+    int far = 0;
+    for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
+        if (q % 256 == 0) context.check_cancelled();
+        if (distance_of(q, surface) <= limit) continue;
+        for (const int v : vertices_around(q, reach)) {
+            if (is_pinned_[at(v)]) continue;
+            search_around(v, [&] {
+                double sum = cost_around(v, barrier) / static_cast<double>(frames_.size());
+                for (const int c : corners_of(v)) {
+                    const double excess = std::max(0.0, distance_of(c / 4, surface) / limit - 0.5);
+                    sum += distance_weight * excess * excess;
+                }
+                return sum;
+            });
+        }
+        far += distance_of(q, surface) > limit ? 1 : 0;
+    }
+    return far;
+}
+
+/// Puts vertex `v` on `goal` and lets its neighbours give way; takes all back where a quad gets too
+/// slanted.
+bool SlidingQuads::move_onto(int v, const SurfacePoint& goal) {
+    const FoldBarrier barrier{0.25, 100};
+    std::vector<std::pair<int, SurfacePoint>> before = {{v, quads_.vertex[at(v)]}};
+    for (const int c : corners_of(v)) {
+        for (const int k : {1, 2})
+            before.emplace_back(neighbour(c, k), quads_.vertex[at(neighbour(c, k))]);
+    }
+    double least_before = 1;
+    for (const auto& [w, point] : before)
+        least_before = std::min(least_before, least_jacobian_around(w));
+    const double enough = std::min(least_before, least_covering_jacobian);
+    const auto least_around = [&] {
+        double least = 1;
+        for (const auto& [w, point] : before) least = std::min(least, least_jacobian_around(w));
+        return least;
+    };
+    place(v, goal);
+    for (int round = 0; round < 2 && least_around() < enough; ++round) {
+        for (const auto& [w, point] : before) {
+            if (w == v || is_pinned_[at(w)]) continue;
+            search_around(w, [&] { return cost_around(w, barrier); });
+        }
+    }
+    if (least_around() >= enough) return true;
+    for (const auto& [w, point] : before) place(w, point);
+    return false;
+}
+
+int SlidingQuads::cover_extremities(double limit, const Context& context) {
+    const Frame& reference = frames_[0];
+    const ClosestPoints surface = reference_quads();
+    struct Far {
+        double distance;
+        int vertex;
+        int quad;
+    };
+    std::vector<Far> far;
+    int hint = -1;
+    for (int x = 0; x < topology_.vertex_count; ++x) {
+        if (x % 4096 == 0) context.check_cancelled();
+        if (topology_.vertex_half_edge[at(x)] < 0) continue;
+        const ClosestPoint closest = surface.find(reference.input.row(x).transpose(), hint);
+        hint = closest.point.triangle;
+        if (closest.squared_distance > limit * limit)
+            far.push_back({closest.squared_distance, x, hint / 2});
+    }
+    std::sort(far.begin(), far.end(), [](const Far& a, const Far& b) {
+        return a.distance != b.distance ? a.distance > b.distance : a.vertex < b.vertex;
+    });
+
+    int placed = 0;
+    std::vector<char> is_busy(at(static_cast<int>(quads_.Q.rows())), 0);
+    for (const Far& f : far) {
+        // One extremity a quad at a time: moving its corner changes all distances around.
+        if (is_busy[at(f.quad)]) continue;
+        std::array<std::pair<double, int>, 4> corners;
+        for (int k = 0; k < 4; ++k) {
+            const int v = quads_.Q(f.quad, k);
+            corners[at(k)] = {
+                (reference.vertices.row(v) - reference.input.row(f.vertex)).squaredNorm(), v};
+        }
+        std::sort(corners.begin(), corners.end());
+        const int h = topology_.vertex_half_edge[at(f.vertex)];
+        const SurfacePoint extremity{h / 3, Vector3::Unit(h % 3)};
+        for (const auto& [distance, v] : corners) {
+            if (is_pinned_[at(v)]) continue;
+            if (!move_onto(v, extremity)) continue;
+            is_pinned_[at(v)] = 1;
+            for (const int c : corners_of(v)) is_busy[at(c / 4)] = 1;
+            ++placed;
+            break;
+        }
+    }
+    return placed;
+}
+
+}  // namespace kinequad

@@ -80,6 +80,7 @@ TriangleSystem::TriangleSystem(const MapVariables& variables) : variables_(varia
         }
     };
     std::vector<Eigen::Triplet<double>> pattern;
+    pattern.reserve(at(variables.columns()) + 25 * at(triangles));
     for (int c = 0; c < variables.columns(); ++c) pattern.emplace_back(c, c, 0.0);
     for (int t = 0; t < triangles; ++t) {
         for_each_term(

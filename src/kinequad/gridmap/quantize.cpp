@@ -208,8 +208,8 @@ private:
 
     /// Single steps of one unknown while they lower the energy.
     void improve() {
-        const auto count = best_.size();
-        std::vector<char> blocked(static_cast<std::size_t>(2 * count), 0);
+        const auto count = static_cast<int>(best_.size());
+        std::vector<char> blocked(2 * is_fixed_.size(), 0);
         double before = energy();
         for (int round = 0; round < 10 * count + 10; ++round) {
             context_.check_cancelled();
@@ -218,7 +218,8 @@ private:
             double gain = -1e-9;
             for (int i = 0; i < count; ++i) {
                 for (int side = 0; side < 2; ++side) {
-                    if (blocked[static_cast<std::size_t>(2 * i + side)]) continue;
+                    if (blocked[2 * static_cast<std::size_t>(i) + static_cast<std::size_t>(side)])
+                        continue;
                     const double change =
                         (side == 0 ? gradient[i] : -gradient[i]) + stiffness_(i, i);
                     if (change < gain) {

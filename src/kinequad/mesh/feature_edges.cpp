@@ -8,7 +8,9 @@ namespace kinequad {
 std::vector<int> find_feature_edges(const Topology& topology, const Positions& V, double degrees) {
     const auto normal_of = [&](int t) -> Vector3 {
         const auto corner = [&](int k) -> Vector3 {
-            return V.row(topology.origin[static_cast<std::size_t>(3 * t + k)]).transpose();
+            return V
+                .row(topology.origin[3 * static_cast<std::size_t>(t) + static_cast<std::size_t>(k)])
+                .transpose();
         };
         return (corner(1) - corner(0)).cross(corner(2) - corner(0));
     };

@@ -45,8 +45,8 @@ void SlidingQuads::search_around(int v, const std::function<double()>& cost) {
 
 /// The corners of a quad and all vertices up to `reach` quads farther on, in ascending order.
 std::vector<int> SlidingQuads::vertices_around(int quad, int reach) const {
-    std::vector<int> around;
-    for (int k = 0; k < 4; ++k) around.push_back(quads_.Q(quad, k));
+    std::vector<int> around = {quads_.Q(quad, 0), quads_.Q(quad, 1), quads_.Q(quad, 2),
+                               quads_.Q(quad, 3)};
     for (int ring = 0; ring < reach; ++ring) {
         std::vector<int> wider = around;
         for (const int v : around) {
@@ -144,7 +144,8 @@ bool SlidingQuads::move_onto(int v, const SurfacePoint& goal) {
     };
     place(v, goal);
     for (int round = 0; round < 2 && least_around() < enough; ++round) {
-        for (const auto& [w, point] : before) {
+        for (const auto& moved : before) {
+            const int w = moved.first;
             if (w == v || is_pinned_[at(w)]) continue;
             search_around(w, [&] { return cost_around(w, barrier); });
         }

@@ -109,8 +109,8 @@ private:
 
     TriangleStrain strain_at(const Positions& V, std::size_t t) const {
         const int* corner = topology_.origin.data() + 3 * t;
-        const double* V0 = V.data();
-        return strain_of(rest_[t], V0 + 3 * corner[0], V0 + 3 * corner[1], V0 + 3 * corner[2]);
+        const auto at = [&](int k) { return V.data() + std::ptrdiff_t{3} * corner[k]; };
+        return strain_of(rest_[t], at(0), at(1), at(2));
     }
 
     const Topology& topology_;

@@ -74,6 +74,7 @@ std::vector<int> fill_holes(SidedSurface& surface) {
     surface.F.conservativeResize(row + static_cast<Eigen::Index>(below.size()), 3);
     for (const std::vector<int>& loop : loops) {
         std::vector<double> lengths;
+        lengths.reserve(loop.size());
         for (const int h : loop) lengths.push_back(surface.side[at(h)]);
         const double spoke = inscribing_radius(lengths);
         for (const int h : loop) {

@@ -62,7 +62,7 @@ public:
         const Component& partner = components_[at(partner_[at(component)])];
         const int local_hint = hint < 0 ? -1 : local_[at(hint)];
         const SurfacePoint local = partner.search.find(goal, local_hint).point;
-        const SurfacePoint nearest{partner.triangle[at(local.triangle)], local.barycentric};
+        SurfacePoint nearest{partner.triangle[at(local.triangle)], local.barycentric};
         const Vector3 facing = normal - 2 * normal.dot(plane_.normal) * plane_.normal;
         if (normals_.row(nearest.triangle).dot(facing) >= 0) return nearest;
         // Where parts touch, the nearest point can be that of the other part: the nearest that

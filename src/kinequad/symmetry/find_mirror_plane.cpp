@@ -86,6 +86,7 @@ std::vector<Vector3> starting_normals(const Samples& samples, const Vector3& cen
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moment);
     std::vector<Vector3> normals;
+    normals.reserve(3);
     for (int k = 0; k < 3; ++k) normals.emplace_back(solver.eigenvectors().col(k));
     constexpr int spread = 24;
     for (int i = 0; i < spread; ++i) {

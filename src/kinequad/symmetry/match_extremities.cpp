@@ -41,7 +41,8 @@ SphereLandmarks match_extremities(const Topology& topology, const IntrinsicMetri
         const SurfacePoint image = image_of(ends[i], 0);
         const int start = topology.vertex_half_edge[static_cast<std::size_t>(ends[i])] / 3;
         for (int k = 0; k < 3; ++k) {
-            const int corner = topology.origin[static_cast<std::size_t>(3 * image.triangle + k)];
+            const int corner = topology.origin[3 * static_cast<std::size_t>(image.triangle) +
+                                               static_cast<std::size_t>(k)];
             choice[i].return_distance +=
                 image.barycentric[k] * from_ends.to_point(topology, i, image_of(corner, start));
         }

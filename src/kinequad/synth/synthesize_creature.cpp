@@ -247,6 +247,7 @@ private:
 
 std::vector<std::string> list_creatures() {
     std::vector<std::string> names;
+    names.reserve(std::size(creatures));
     for (const NamedCreature& creature : creatures) names.emplace_back(creature.name);
     return names;
 }

@@ -3,19 +3,10 @@
 #include <vector>
 
 #include "kinequad/core/types.h"
+#include "kinequad/mesh/refined_mesh.h"
 #include "kinequad/mesh/topology.h"
 
 namespace kinequad {
-
-/// A triangulation that refines an input mesh: every one of its triangles lies in one input
-/// triangle.
-struct RefinedMesh {
-    Triangles F;              ///< m' x 3
-    int vertex_count = 0;     ///< n'; the first n are the input's vertices
-    std::vector<int> parent;  ///< m': input triangle that holds a triangle
-    Positions barycentric;    ///< 3m' x 3: row 3t+k, corner k of triangle t in its parent's
-                              ///< barycentric coordinates (exact at input vertices)
-};
 
 /// An integer-grid map: (u, v) at every corner of a refined mesh, so that each triangle is mapped
 /// with positive area and crossing an edge is a quarter-turn rotation plus an integer translation.

@@ -1,0 +1,34 @@
+#include "kinequad/mesh/refined_mesh.h"
+
+#include <numeric>
+
+namespace kinequad {
+
+RefinedMesh as_refined_mesh(const Triangles& F, int vertex_count) {
+    RefinedMesh mesh;
+    mesh.F = F;
+    mesh.vertex_count = vertex_count;
+    mesh.parent.resize(static_cast<std::size_t>(F.rows()));
+    std::iota(mesh.parent.begin(), mesh.parent.end(), 0);
+    mesh.barycentric = Eigen::Matrix3d::Identity().replicate(F.rows(), 1);
+    return mesh;
+}
+
+std::vector<SurfacePoint> vertex_points(const RefinedMesh& mesh) {
+    std::vector<SurfacePoint> points(static_cast<std::size_t>(mesh.vertex_count));
+    for (Eigen::Index corner = 0; corner < mesh.F.size(); ++corner) {
+        SurfacePoint& point = points[static_cast<std::size_t>(mesh.F.data()[corner])];
+        if (point.triangle >= 0) continue;
+        point.triangle = mesh.parent[static_cast<std::size_t>(corner / 3)];
+        point.barycentric = mesh.barycentric.row(corner).transpose();
+    }
+    return points;
+}
+
+SurfacePoint point_of_input(const RefinedMesh& mesh, const SurfacePoint& point) {
+    const Eigen::Index corner = 3 * static_cast<Eigen::Index>(point.triangle);
+    const Vector3 sum = mesh.barycentric.middleRows<3>(corner).transpose() * point.barycentric;
+    return {mesh.parent[static_cast<std::size_t>(point.triangle)], sum / sum.sum()};
+}
+
+}  // namespace kinequad

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "kinequad/core/types.h"
+#include "kinequad/mesh/triangle_mesh.h"
+
+namespace kinequad {
+
+/// A triangulation that refines an input mesh, or a part of one: every one of its triangles lies in
+/// one input triangle.
+struct RefinedMesh {
+    Triangles F;              ///< m' x 3
+    int vertex_count = 0;     ///< n'
+    std::vector<int> parent;  ///< m': input triangle that holds a triangle
+    Positions barycentric;    ///< 3m' x 3: row 3t+k, corner k of triangle t in its parent's
+                              ///< barycentric coordinates (exact at input vertices)
+};
+
+/// The input itself, `F` (m x 3) over `vertex_count` vertices, as a refinement of itself.
+RefinedMesh as_refined_mesh(const Triangles& F, int vertex_count);
+
+/// The vertices of a refined mesh (n') as points of the input; triangle -1 where a vertex belongs
+/// to no triangle.
+std::vector<SurfacePoint> vertex_points(const RefinedMesh& mesh);
+
+/// A point of a refined mesh as a point of the input.
+SurfacePoint point_of_input(const RefinedMesh& mesh, const SurfacePoint& point);
+
+}  // namespace kinequad

@@ -13,6 +13,7 @@
 #include "kinequad/io/files.h"
 #include "kinequad/io/frame_digest.h"
 #include "kinequad/io/frame_sink.h"
+#include "kinequad/io/landmarks.h"
 #include "kinequad/io/write_mesh.h"
 #include "kinequad/measure/measure_sequence.h"
 #include "kinequad/pipeline/dump_stage.h"
@@ -31,7 +32,8 @@ struct RunCommand {
     Options options;
     std::string input;
     std::string output;
-    std::string symmetry = "none";
+    std::string symmetry;
+    std::string landmarks;
     std::string field = "convex";
     std::string metric;
     std::string reference = "0";
@@ -43,6 +45,9 @@ struct RunCommand {
 
 Options options_of(const RunCommand& command, const FrameSource& source) {
     Options options = command.options;
+    if (command.symmetry == "none") options.symmetry = SymmetryMode::none;
+    if (command.symmetry == "field") options.symmetry = SymmetryMode::field;
+    if (command.symmetry == "exact") options.symmetry = SymmetryMode::exact;
     if (command.field == "paper") options.field = CrossFieldMethod::paper;
     if (command.metric == "mean") options.metric = MetricChoice::mean;
     if (command.metric == "reference") options.metric = MetricChoice::reference;
@@ -100,13 +105,23 @@ void run(const RunCommand& command, Session& session) {
             dump_stage(command.dump_directory, stage, so_far);
         };
     }
-    Result result = quadrangulate(*source, options_of(command, *source), context, observe);
+    std::optional<Landmarks> landmarks;
+    if (!command.landmarks.empty()) {
+        landmarks = read_landmarks(command.landmarks);
+        require_landmarks_fit(*landmarks, source->vertex_count(), command.landmarks);
+    }
+    Result result =
+        quadrangulate(*source, landmarks, options_of(command, *source), context, observe);
     result.times.insert(result.times.begin(), opening.begin(), opening.end());
 
     clock = StageClock();
     const std::string digest = write_frames(command, result, *source, output, context);
     write_file_atomically(output.path("binding.json"),
                           format_binding(result.quads, source->triangles()));
+    output.replace_earlier("mirror.json");
+    if (!result.quads.mirror.empty()) {
+        write_file_atomically(output.path("mirror.json"), format_mirror(result.quads));
+    }
     clock.finish_stage("frames", result.times);
 
     std::optional<SequenceMetrics> metrics;
@@ -135,13 +150,14 @@ void add_method_options(CLI::App& app, RunCommand& command) {
                    "Wanted edge length of the quads instead, in units of the input")
         ->check(CLI::PositiveNumber)
         ->excludes(vertices);
+    app.add_option("--landmarks", command.landmarks,
+                   "JSON file with pairs of mirrored vertices and vertices on the middle line: "
+                   "where left and right of the surface are");
     app.add_option("--symmetry", command.symmetry,
-                   "How the quads are made symmetric; this version knows none only")
-        ->check([](const std::string& value) {
-            return value == "none" ? std::string()
-                                   : "'" + value + "' is not in this version; leave it at none";
-        })
-        ->capture_default_str();
+                   "How the quads are made symmetric: none; field (the cross field alone); exact "
+                   "(one half is solved and mirrored). Without landmarks a pose that a plane "
+                   "mirrors is looked for [exact with landmarks, else none]")
+        ->check(CLI::IsMember({"none", "field", "exact"}));
     app.add_option(
            "--field", command.field,
            "Recipe of the cross field: convex (fewer singularities, faster) or paper (the energy "

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "input_options.h"
+#include "kinequad/deformation/compute_mean_metric.h"
 #include "kinequad/io/files.h"
 #include "kinequad/io/landmarks.h"
 #include "kinequad/pipeline/find_symmetry.h"
@@ -39,7 +40,9 @@ void find(const SymmetryCommand& command, Session& session) {
     if (!command.landmarks.empty()) landmarks = read_landmarks(command.landmarks);
     const Positions reference =
         read_reference(*source, parse_reference(command.reference, *source));
-    const FoundSymmetry found = find_symmetry(*source, landmarks, reference, context);
+    const Topology topology = build_topology(source->triangles(), source->vertex_count());
+    const IntrinsicMetric metric = compute_mean_metric(*source, topology, context);
+    const FoundSymmetry found = find_symmetry(*source, metric, landmarks, reference, context);
     write_file_atomically(command.output, format_symmetry_json(found.map));
     session.finish();
     print_quality(found, command.output);

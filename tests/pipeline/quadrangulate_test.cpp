@@ -35,7 +35,7 @@ Options options_for(int vertices) {
 
 TEST(Quadrangulate, TorusStaysATorus) {
     const MemorySequence source = stretched_torus(3);
-    const Result result = quadrangulate(source, options_for(600), Context{});
+    const Result result = quadrangulate(source, {}, options_for(600), Context{});
     const QuadMeshReport report = verify_quad_mesh(result.quads, result.topology);
     EXPECT_TRUE(report.valid());
     EXPECT_EQ(report.euler_characteristic, 0);
@@ -47,7 +47,7 @@ TEST(Quadrangulate, StagesComeInOrderAndAreTimed) {
     const MemorySequence source = stretched_torus(2);
     std::vector<std::string> seen;
     const Result result =
-        quadrangulate(source, options_for(400), Context{},
+        quadrangulate(source, {}, options_for(400), Context{},
                       [&](std::string_view stage, const Result&) { seen.emplace_back(stage); });
     std::vector<std::string> timed;
     for (const StageTime& time : result.times) timed.push_back(time.stage);
@@ -60,8 +60,8 @@ TEST(Quadrangulate, WithoutAnimationOtherFramesDoNotMatter) {
     options.alpha = 0;
     const MemorySequence moving = stretched_torus(5);
     const MemorySequence still(moving.triangles(), {moving.read_frame(0)});
-    const Result a = quadrangulate(moving, options, Context{});
-    const Result b = quadrangulate(still, options, Context{});
+    const Result a = quadrangulate(moving, {}, options, Context{});
+    const Result b = quadrangulate(still, {}, options, Context{});
     EXPECT_EQ(a.field.angle, b.field.angle);
     EXPECT_EQ(a.quads.Q, b.quads.Q);
 }
@@ -71,8 +71,8 @@ TEST(Quadrangulate, MeanMetricDoesNotDependOnTheOrderOfTheFrames) {
     std::vector<Positions> frames;
     for (int j = 3; j >= 0; --j) frames.push_back(forward.read_frame(j));
     const MemorySequence backward(forward.triangles(), frames);
-    const Result a = quadrangulate(forward, options_for(400), Context{});
-    const Result b = quadrangulate(backward, options_for(400), Context{});
+    const Result a = quadrangulate(forward, {}, options_for(400), Context{});
+    const Result b = quadrangulate(backward, {}, options_for(400), Context{});
     EXPECT_TRUE(a.metric.edge_length.isApprox(b.metric.edge_length, 1e-12));
     EXPECT_EQ(a.field.index, b.field.index);
 }
@@ -82,7 +82,7 @@ TEST(Quadrangulate, NamesTheInputThatIsNoManifold) {
     F << 0, 1, 2, 1, 0, 3, 0, 1, 4;
     const MemorySequence source(F, {Positions::Random(5, 3)}, {}, "fin.obj");
     try {
-        quadrangulate(source, options_for(100), Context{});
+        quadrangulate(source, {}, options_for(100), Context{});
         FAIL() << "accepted";
     } catch (const InputError& error) {
         EXPECT_EQ(error.code(), ExitCode::invalid_mesh);
@@ -95,7 +95,7 @@ TEST(Quadrangulate, StopsWhenAsked) {
     std::atomic<bool> cancel{true};
     Context context;
     context.cancel = &cancel;
-    EXPECT_THROW(quadrangulate(stretched_torus(2), options_for(400), context), Cancelled);
+    EXPECT_THROW(quadrangulate(stretched_torus(2), {}, options_for(400), context), Cancelled);
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ struct Grid {
     ClosestPoints surface() const { return {mesh.V, mesh.F}; }
 
     SlidingQuads sliding(std::vector<SampledFrame> frames) const {
-        return SlidingQuads(quads, topology, metric, mesh.F, std::move(frames));
+        return SlidingQuads(quads, topology, metric, mesh.F, std::move(frames), 1);
     }
 
     /// Connectivity and boundary are as before, and all vertices on the surface.
@@ -230,7 +230,8 @@ TEST(RelaxQuads, ImprovesAllFramesTogetherAndKeepsTheMesh) {
     for (int f = 0; f < 5; ++f) frames.push_back(sheared(grid.mesh.V, 0.3 * f - 0.6));
     const MemorySequence sequence(grid.mesh.F, frames);
     const QuadMesh after =
-        relax_quads(grid.quads, sequence, grid.topology, grid.metric, {.reference_frame = 2}, {});
+        relax_quads(grid.quads, {{sequence, sequence.read_frame(2)}}, grid.topology, grid.metric,
+                    {.reference_frame = 2}, {});
     grid.expect_kept(after);
     double cost_before = 0;
     double cost_after = 0;
@@ -247,7 +248,7 @@ TEST(RelaxQuads, TheRestShapeCanBeTheReference) {
     grid.quads.vertex[static_cast<std::size_t>(3 * 8 + 3)] = grid.above(0.61, 0.47);
     ASSERT_LE(grid.least_jacobian(grid.quads, grid.mesh.V), 0);
     const MemorySequence sequence(grid.mesh.F, {sheared(grid.mesh.V, 0.2)}, grid.mesh.V);
-    const QuadMesh after = relax_quads(grid.quads, sequence, grid.topology, grid.metric,
+    const QuadMesh after = relax_quads(grid.quads, {{sequence, sequence.read_frame(0)}}, grid.topology, grid.metric,
                                        {.sampled_frames = 1, .reference_is_rest_shape = true}, {});
     EXPECT_GT(grid.least_jacobian(after, grid.mesh.V), 0);
     grid.expect_kept(after);
@@ -258,8 +259,8 @@ TEST(RelaxQuads, TheSameInputGivesTheSameMesh) {
     const MemorySequence sequence(grid.mesh.F, {grid.mesh.V, sheared(grid.mesh.V, 0.5)});
     Context one;
     one.threads = 1;
-    const QuadMesh a = relax_quads(grid.quads, sequence, grid.topology, grid.metric, {}, one);
-    const QuadMesh b = relax_quads(grid.quads, sequence, grid.topology, grid.metric, {}, {});
+    const QuadMesh a = relax_quads(grid.quads, {{sequence, sequence.read_frame(0)}}, grid.topology, grid.metric, {}, one);
+    const QuadMesh b = relax_quads(grid.quads, {{sequence, sequence.read_frame(0)}}, grid.topology, grid.metric, {}, {});
     for (std::size_t v = 0; v < a.vertex.size(); ++v) {
         EXPECT_EQ(a.vertex[v].triangle, b.vertex[v].triangle);
         EXPECT_EQ(a.vertex[v].barycentric, b.vertex[v].barycentric);

@@ -20,4 +20,8 @@ struct DeformationTensors {
     Eigen::VectorXcd curvature;
 };
 
+/// What two animations of the same triangles do to them together, each measured against a metric of
+/// its own: the two sides of a symmetric surface, seen as one.
+DeformationTensors add_tensors(const DeformationTensors& a, const DeformationTensors& b);
+
 }  // namespace kinequad

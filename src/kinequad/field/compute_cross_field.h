@@ -31,6 +31,11 @@ struct CrossFieldOptions {
     double edge_length = 0;
     /// Edges that crosses on both sides are aligned with. Boundary edges always are.
     std::vector<int> feature_edges = {};
+    /// Boundary edges across which the surface goes on as its mirror image. Crosses are aligned
+    /// with them, but turn evenly along a chain of them where the edges themselves zigzag; what is
+    /// singular on them, and so lies on the line of symmetry, is priced as two quarters in one
+    /// vertex.
+    std::vector<int> mirror_edges = {};
     /// Further triangles whose cross is given; a boundary or feature edge has precedence.
     std::vector<FixedDirection> fixed_directions = {};
 };

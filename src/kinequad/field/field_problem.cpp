@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "kinequad/core/error.h"
+#include "kinequad/field/even_turns.h"
 
 namespace kinequad {
 namespace {
@@ -36,6 +37,12 @@ void check_options(const Topology& topology, const CrossFieldTargets& targets,
                                          topology.edge_count));
         }
     }
+    for (const int e : options.mirror_edges) {
+        if (e < 0 || e >= topology.edge_count || !topology.is_boundary_edge(e)) {
+            throw InputError(InputFault::usage,
+                             fmt::format("mirror edge {} is no boundary edge of the mesh", e));
+        }
+    }
     for (const FixedDirection& fixed : options.fixed_directions) {
         if (fixed.triangle < 0 || fixed.triangle >= topology.triangle_count ||
             !std::isfinite(fixed.angle)) {
@@ -58,9 +65,9 @@ void fix_crosses(FieldProblem& problem, const Topology& topology, const Intrinsi
     std::vector<Complex> sum(count, 0);
     std::vector<double> longest(count, 0);
     std::vector<double> longest_direction(count, 0);
-    const auto align = [&](int half_edge, double length) {
+    const auto align = [&](int half_edge, double length, double turned_by) {
         const std::size_t t = at(half_edge / 3);
-        const double direction = directions[at(half_edge)];
+        const double direction = directions[at(half_edge)] + turned_by;
         problem.fixed[t] = true;
         sum[t] += std::polar(length, 4 * direction);
         if (length > longest[t]) {
@@ -70,11 +77,12 @@ void fix_crosses(FieldProblem& problem, const Topology& topology, const Intrinsi
     };
     std::vector<bool> feature(at(topology.edge_count), false);
     for (const int e : options.feature_edges) feature[at(e)] = true;
+    const std::vector<double> turned = even_turns(topology, metric, options);
     for (int e = 0; e < topology.edge_count; ++e) {
         if (!feature[at(e)] && !topology.is_boundary_edge(e)) continue;
         const int h = topology.edge_half_edge[at(e)];
-        align(h, metric.edge_length[e]);
-        if (topology.twin[at(h)] >= 0) align(topology.twin[at(h)], metric.edge_length[e]);
+        align(h, metric.edge_length[e], turned[at(e)]);
+        if (topology.twin[at(h)] >= 0) align(topology.twin[at(h)], metric.edge_length[e], 0);
     }
     std::vector<bool> by_edge = problem.fixed;
     for (std::size_t t = 0; t < count; ++t) {
@@ -131,6 +139,12 @@ FieldProblem make_field_problem(const Topology& topology, const IntrinsicMetric&
 
     const std::vector<double> directions = all_directions(topology, metric);
     fix_crosses(problem, topology, metric, options, directions);
+    problem.mirror_edges_at.assign(at(topology.vertex_count), 0);
+    for (const int e : options.mirror_edges) {
+        const int h = topology.edge_half_edge[at(e)];
+        ++problem.mirror_edges_at[at(topology.origin[at(h)])];
+        ++problem.mirror_edges_at[at(topology.target(h))];
+    }
     if (targets.value.size() > 0) {
         for (int t = 0; t < topology.triangle_count; ++t) {
             if (problem.fixed[at(t)]) continue;

@@ -25,6 +25,7 @@ struct FieldProblem {
     Eigen::VectorXd target;             ///< m: radians, up to quarter turns
     std::vector<bool> fixed;            ///< m: cross is given
     Eigen::VectorXd fixed_angle;        ///< m: radians
+    std::vector<int> mirror_edges_at;   ///< n: number of mirror edges at a vertex
     std::vector<int> component;         ///< m: connected component of a triangle
     std::vector<bool> anchored;         ///< component: has a fixed cross or soft terms that matter
 };

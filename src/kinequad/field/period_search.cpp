@@ -80,7 +80,12 @@ SingularityPrice::SingularityPrice(const FieldProblem& problem, const Topology& 
 
 double SingularityPrice::vertex_price(int vertex, int index) const {
     const bool boundary = boundary_[at(vertex)];
-    double price = singularity_cost_ * std::abs(index);
+    const int mirror_edges = problem_.mirror_edges_at[at(vertex)];
+    // Together with its mirror image a vertex has twice the angle; where the line of symmetry ends
+    // on the boundary, half a straight angle is regular.
+    const int whole = mirror_edges == 0 ? index : mirror_edges == 1 ? 2 * index - 2 : 2 * index;
+    double price = singularity_cost_ * std::abs(whole);
+    if (mirror_edges > 0 && whole != 0) price += 2 * adjacency_cost_ * std::abs(whole);
     // Several singularities in one place have even less room than two that an edge joins. On the
     // boundary -2 is the tip of a slit, and positive indices run out of angle below.
     const int crowd = boundary ? -1 - index : std::abs(index);
@@ -108,9 +113,7 @@ Eigen::VectorXi SingularityPrice::singular_neighbours(const Eigen::VectorXi& ind
 
 double SingularityPrice::sum(const Eigen::VectorXi& index) const {
     double result = 0;
-    for (int v = 0; v < index.size(); ++v) {
-        if (index[v] != 0) result += vertex_price(v, index[v]);
-    }
+    for (int v = 0; v < index.size(); ++v) result += vertex_price(v, index[v]);
     for (int e = 0; e < problem_.edge_count; ++e) {
         if (is_tight(e) && index[problem_.tail[at(e)]] != 0 && index[problem_.head[at(e)]] != 0) {
             result += adjacency_cost_;

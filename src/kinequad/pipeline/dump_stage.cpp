@@ -84,7 +84,7 @@ Json quads_record(const QuadMesh& quads) {
 Json record_of(std::string_view stage, const Result& result) {
     if (stage == "check") return check_record(result);
     if (stage == "metric") {
-        return {{"edge_length", list(result.metric.edge_length)},
+        return {{"edge_length", list(result.domain.metric.edge_length)},
                 {"quad_edge_length", result.edge_length}};
     }
     if (stage == "deformation") return deformation_record(result.tensors);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "kinequad/core/error.h"
-#include "kinequad/deformation/compute_mean_metric.h"
 #include "kinequad/symmetry/compute_mirror_map.h"
 #include "kinequad/symmetry/compute_symmetry_map.h"
 #include "kinequad/symmetry/find_mirror_plane.h"
@@ -16,10 +15,9 @@ constexpr double symmetric_pose_percent = 0.1;
 
 }  // namespace
 
-FoundSymmetry find_symmetry(const FrameSource& source, const std::optional<Landmarks>& landmarks,
-                            const Positions& reference, const Context& context) {
-    const Topology topology = build_topology(source.triangles(), source.vertex_count());
-    const IntrinsicMetric metric = compute_mean_metric(source, topology, context);
+FoundSymmetry find_symmetry(const FrameSource& source, const IntrinsicMetric& metric,
+                            const std::optional<Landmarks>& landmarks, const Positions& reference,
+                            const Context& context) {
     TriangleMesh mesh{reference, source.triangles()};
     FoundSymmetry found;
     if (landmarks) {

@@ -5,6 +5,7 @@
 #include "kinequad/core/context.h"
 #include "kinequad/io/frame_source.h"
 #include "kinequad/io/landmarks.h"
+#include "kinequad/mesh/intrinsic_metric.h"
 #include "kinequad/symmetry/symmetry_map.h"
 #include "kinequad/symmetry/verify_symmetry_map.h"
 
@@ -16,14 +17,16 @@ struct FoundSymmetry {
     SymmetryReport report;
 };
 
-/// The symmetry map of an animated surface: from landmarks on the mean metric, or, where there are
-/// none, from the mirror plane of a pose that is symmetric in space. `reference` (n x 3) is the
-/// shape in which seams are found and distances reported.
+/// The symmetry map of an animated surface: from landmarks on `metric`, the mean one mostly, or,
+/// where there are none, from the mirror plane of a pose that is symmetric in space. `metric` is
+/// over the source's edges; `reference` (n x 3) is the shape in which seams are found and distances
+/// reported.
 ///
 /// Throws `InputError` (mesh) for a surface that is not manifold or oriented; (symmetry) where the
 /// landmarks do not fit, or there are none and no pose is symmetric; `VerificationError`;
 /// `Cancelled`. docs/symmetry.md
-FoundSymmetry find_symmetry(const FrameSource& source, const std::optional<Landmarks>& landmarks,
-                            const Positions& reference, const Context& context);
+FoundSymmetry find_symmetry(const FrameSource& source, const IntrinsicMetric& metric,
+                            const std::optional<Landmarks>& landmarks, const Positions& reference,
+                            const Context& context);
 
 }  // namespace kinequad

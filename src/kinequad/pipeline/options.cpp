@@ -8,10 +8,14 @@
 
 namespace kinequad {
 
-Options resolve_options(Options options, int frame_count, bool has_rest_shape) {
+Options resolve_options(Options options, int frame_count, bool has_rest_shape,
+                        bool has_landmarks) {
     const auto check = [](bool condition, const std::string& message) {
         require(condition, InputFault::usage, message);
     };
+    if (!options.symmetry) {
+        options.symmetry = has_landmarks ? SymmetryMode::exact : SymmetryMode::none;
+    }
     if (!options.alpha) options.alpha = default_alpha(options.field);
     if (!options.metric) {
         options.metric = *options.alpha == 0 ? MetricChoice::reference : MetricChoice::mean;

@@ -8,7 +8,9 @@ namespace kinequad {
 
 /// How the quad mesh is made symmetric.
 enum class SymmetryMode {
-    none,  ///< symmetry of the shape is not used
+    none,   ///< symmetry of the shape is not used
+    field,  ///< the cross field is drawn to be symmetric
+    exact,  ///< one half is solved and mirrored: the connectivity is its own mirror image
 };
 
 /// Edge lengths that the surface is known by up to the grid map. docs/pipeline.md
@@ -22,7 +24,8 @@ struct Options {
     /// `reference` for the rest shape that comes beside a point cache.
     static constexpr int rest_shape = -1;
 
-    SymmetryMode symmetry = SymmetryMode::none;
+    /// Empty: `exact` where there are landmarks, else `none`.
+    std::optional<SymmetryMode> symmetry;
     int vertices = 5200;     ///< wanted number of quad vertices, met within 5 %
     double edge_length = 0;  ///< wanted quad edge length in units of the input; 0: from `vertices`
     /// Recipe of the cross field; `paper` is the energy and solver of Du and Tu.
@@ -48,8 +51,10 @@ inline bool is_single_pose(const Options& options) {
     return options.alpha == 0.0 && options.metric == MetricChoice::reference;
 }
 
-/// `options` with empty fields filled in by their defaults. Throws `InputError` (usage) where a
+/// `options` with empty fields filled in by their defaults, for an input with or without landmarks.
+/// Throws `InputError` (usage) where a
 /// value is out of its range, `reference` for `frame_count` frames and `has_rest_shape`.
-Options resolve_options(Options options, int frame_count, bool has_rest_shape);
+Options resolve_options(Options options, int frame_count, bool has_rest_shape,
+                        bool has_landmarks);
 
 }  // namespace kinequad

@@ -8,17 +8,13 @@
 #include <vector>
 
 #include "kinequad/core/error.h"
-#include "kinequad/deformation/compute_deformation_tensors.h"
 #include "kinequad/deformation/compute_mean_metric.h"
-#include "kinequad/extract/extract_quads.h"
+#include "kinequad/extract/mirrored_quads.h"
 #include "kinequad/extract/verify_quad_mesh.h"
-#include "kinequad/field/compute_cross_field.h"
-#include "kinequad/field/cross_field_targets.h"
-#include "kinequad/field/verify_cross_field.h"
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/io/memory_sequence.h"
-#include "kinequad/mesh/feature_edges.h"
-#include "kinequad/relax/relax_quads.h"
+#include "kinequad/pipeline/solve_quads.h"
+#include "kinequad/transfer/carried_sequence.h"
 
 namespace kinequad {
 namespace {
@@ -35,6 +31,15 @@ Topology checked_topology(const FrameSource& source) {
 Positions read_reference_frame(const FrameSource& source, int reference) {
     return reference == Options::rest_shape ? source.read_rest_shape()
                                             : source.read_frame(reference);
+}
+
+/// The lengths that a surface is known by.
+IntrinsicMetric choose_metric(const FrameSource& frames, const Topology& topology,
+                              const Positions& reference, const Options& options,
+                              const Context& context) {
+    return options.metric == MetricChoice::reference
+               ? metric_of(topology, reference)
+               : compute_mean_metric(frames, topology, context);
 }
 
 /// Every component needs area, or no quad can lie on it.
@@ -57,54 +62,44 @@ void check_areas(const FrameSource& source, const Topology& topology,
     }
 }
 
-void require_valid_field(const CrossFieldReport& report) {
-    if (report.valid()) return;
-    throw VerificationError(fmt::format(
-        "the cross field is not valid: index sum {} instead of {} quarters, {} wrong indices, {} "
-        "broken holonomies, {} unaligned triangles; please report this input",
-        report.index_sum, report.expected_index_sum, report.wrong_indices, report.broken_holonomies,
-        report.unaligned_triangles));
-}
-
-CrossField make_cross_field(const Result& result, const Context& context) {
-    CrossFieldTargetOptions target_options;
-    target_options.method = result.options.field;
-    target_options.alpha = *result.options.alpha;
-    target_options.curvature_weight = result.options.curvature;
-    target_options.edge_length = result.edge_length;
-    const CrossFieldTargets targets =
-        compute_cross_field_targets(result.topology, result.metric, result.tensors, target_options);
-    CrossFieldOptions options;
-    options.method = result.options.field;
-    options.singularity_cost = result.options.singularity_cost;
-    options.edge_length = result.edge_length;
-    if (result.options.feature_angle > 0) {
-        options.feature_edges =
-            find_feature_edges(result.topology, result.reference, result.options.feature_angle);
+/// Shapes in which the two sides are matched: the reference and some frames, evenly chosen.
+std::vector<Positions> matching_shapes(const FrameSource& frames, const Positions& reference) {
+    constexpr int largest_count = 8;
+    std::vector<Positions> shapes = {reference};
+    const int count = std::min(largest_count, frames.frame_count());
+    for (int i = 1; i < count; ++i) {
+        shapes.push_back(frames.read_frame(i * frames.frame_count() / count));
     }
-    CrossField field =
-        compute_cross_field(result.topology, result.metric, targets, options, context);
-    require_valid_field(verify_cross_field(result.topology, result.metric, field, options));
-    return field;
+    return shapes;
 }
 
-void require_valid_map(const GridMap& map) {
-    const GridMapReport report = verify_grid_map(map);
-    if (report.valid()) return;
-    throw VerificationError(fmt::format(
-        "the grid map is not valid: {} flipped triangles, {} broken transitions, {} fractional "
-        "translations, {} singularities off the grid, {} wrong cone angles, {} boundary edges off "
-        "their "
-        "lines; please report this input",
-        report.flipped_triangles, report.broken_transitions, report.fractional_translations,
-        report.fractional_singularities, report.wrong_cone_angles,
-        report.unaligned_boundary_edges));
+/// The quads of both sides, from those of the half.
+QuadMesh mirror_quads(const FrameSource& frames, const Result& result, const QuadMesh& half,
+                      const Context& context) {
+    const SymmetricHalf& surface = result.domain.surface;
+    const std::vector<SurfacePoint> mirrored =
+        mirror_points(surface, result.topology, frames.triangles(),
+                      matching_shapes(frames, result.reference), half.vertex, context);
+    QuadMesh on_input{half.Q, {}, {}};
+    for (const SurfacePoint& point : half.vertex) {
+        on_input.vertex.push_back(point_of_input(surface.mesh, point));
+    }
+    const std::vector<char> is_on_curve = curve_vertices(half, result.domain);
+    QuadMesh whole = join_mirrored_quads(on_input, mirrored, is_on_curve);
+    const MirrorReport report = verify_mirror(whole);
+    if (!report.valid()) {
+        throw VerificationError(fmt::format(
+            "the quads are not their own mirror image: {} vertices, {} quads and {} vertices on "
+            "the line of symmetry do not fit; please report this input",
+            report.broken_vertices, report.broken_quads, report.loose_fixed_vertices));
+    }
+    return whole;
 }
 
 }  // namespace
 
-Result quadrangulate(const FrameSource& source, const Options& options, const Context& context,
-                     const StageObserver& observe) {
+Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& landmarks,
+                     const Options& options, const Context& context, const StageObserver& observe) {
     Result result;
     StageClock clock;
     const auto finish_stage = [&](const char* stage) {
@@ -112,20 +107,11 @@ Result quadrangulate(const FrameSource& source, const Options& options, const Co
         if (observe) observe(stage, result);
     };
 
-    result.options = resolve_options(options, source.frame_count(), source.has_rest_shape());
+    result.options = resolve_options(options, source.frame_count(), source.has_rest_shape(),
+                                     landmarks.has_value());
     result.topology = checked_topology(source);
     result.reference = read_reference_frame(source, result.options.reference);
     finish_stage("check");
-
-    result.metric = result.options.metric == MetricChoice::reference
-                        ? metric_of(result.topology, result.reference)
-                        : compute_mean_metric(source, result.topology, context);
-    check_areas(source, result.topology, result.metric);
-    result.edge_length =
-        result.options.edge_length > 0
-            ? result.options.edge_length
-            : edge_length_for(result.topology, result.metric, result.options.vertices);
-    finish_stage("metric");
 
     // A run on a single pose sees the reference as if it were the whole sequence.
     std::optional<MemorySequence> pose;
@@ -134,40 +120,46 @@ Result quadrangulate(const FrameSource& source, const Options& options, const Co
                      source.name());
     }
     const FrameSource& frames = pose ? *pose : source;
-    DeformationOptions deformation_options;
-    deformation_options.edge_length = result.edge_length;
-    result.tensors = compute_deformation_tensors(frames, result.topology, result.metric,
-                                                 deformation_options, context);
-    finish_stage("deformation");
+    const IntrinsicMetric metric =
+        choose_metric(frames, result.topology, result.reference, result.options, context);
+    check_areas(source, result.topology, metric);
+    result.edge_length =
+        result.options.edge_length > 0
+            ? result.options.edge_length
+            : edge_length_for(result.topology, metric, result.options.vertices);
+    result.domain.surface.mesh = as_refined_mesh(source.triangles(), source.vertex_count());
+    result.domain.surface.is_on_curve.assign(static_cast<std::size_t>(source.vertex_count()), 0);
+    result.domain.topology = result.topology;
+    result.domain.metric = metric;
+    finish_stage("metric");
 
-    // A symmetry map, once there is one, is made here and joins the targets of the field.
-
-    result.field = make_cross_field(result, context);
-    finish_stage("field");
-
-    GridMapOptions map_options;
-    map_options.vertex_count = result.options.vertices;
-    map_options.edge_length = result.options.edge_length;
-    result.map =
-        compute_grid_map(result.topology, result.metric, result.field, map_options, context);
-    require_valid_map(result.map);
-    finish_stage("map");
-
-    result.quads = extract_quads(result.map, context);
-    require_valid(verify_quad_mesh(result.quads, result.topology));
-    finish_stage("extraction");
-
-    if (result.options.relax_rounds > 0) {
-        RelaxOptions relax_options;
-        relax_options.rounds = result.options.relax_rounds;
-        relax_options.reference_is_rest_shape =
-            !pose && result.options.reference == Options::rest_shape;
-        relax_options.reference_frame =
-            pose || relax_options.reference_is_rest_shape ? 0 : result.options.reference;
-        result.quads = relax_quads(result.quads, frames, result.topology, result.metric,
-                                   relax_options, context);
-        require_valid(verify_quad_mesh(result.quads, result.topology));
+    if (result.options.symmetry == SymmetryMode::none) {
+        result.quads = solve_quads({{frames, result.reference, metric}}, result, context, finish_stage);
+        finish_stage("relaxation");
+        return result;
     }
+
+    result.symmetry = find_symmetry(frames, metric, landmarks, result.reference, context);
+    SymmetricHalf& half = result.domain.surface;
+    half = take_symmetric_half(result.topology, metric, result.symmetry->map, result.reference,
+                               source.triangles());
+    result.domain.topology = build_topology(half.mesh.F, half.mesh.vertex_count);
+    const CarriedSequence near(frames, half.mesh.F, vertex_points(half.mesh));
+    const CarriedSequence far(frames, half.mesh.F, half.mirrored, true);
+    std::vector<DomainView> views;
+    for (const CarriedSequence* side : {&near, &far}) {
+        Positions pose = side->carry(result.reference);
+        IntrinsicMetric lengths =
+            choose_metric(*side, result.domain.topology, pose, result.options, context);
+        views.push_back({*side, std::move(pose), std::move(lengths)});
+    }
+    result.domain.metric.edge_length =
+        (views[0].metric.edge_length + views[1].metric.edge_length) / 2;
+    finish_stage("symmetry");
+
+    const QuadMesh quads = solve_quads(views, result, context, finish_stage);
+    result.quads = mirror_quads(frames, result, quads, context);
+    require_valid(verify_quad_mesh(result.quads, result.topology));
     finish_stage("relaxation");
     return result;
 }

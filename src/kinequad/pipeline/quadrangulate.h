@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include "kinequad/core/context.h"
 #include "kinequad/io/frame_source.h"
+#include "kinequad/io/landmarks.h"
 #include "kinequad/pipeline/options.h"
 #include "kinequad/pipeline/result.h"
 
@@ -9,12 +12,15 @@ namespace kinequad {
 
 /// The main job: one quad mesh for all frames of `source`, verified after every stage.
 ///
-/// Reads every frame twice where the metric is the mean, and only the reference where the run sees
-/// a single pose; never holds more than a few frames. `observe` may be empty. Throws `InputError`
-/// (usage) for an option out of its range, (mesh), naming `source`, for a surface that is not
-/// manifold, oriented and of positive area; `GridMapError`, `VerificationError`, `Cancelled`, and
-/// what the source throws. docs/pipeline.md
-Result quadrangulate(const FrameSource& source, const Options& options, const Context& context,
+/// Reads every frame a few times, and only the reference where the run sees a single pose; never
+/// holds more than a few frames. `landmarks` tell what the user knows of the symmetry of the
+/// surface; they matter with the symmetries `field` and `exact`. `observe` may be empty. Throws
+/// `InputError` (usage) for an option out of its range, (mesh), naming `source`, for a surface that
+/// is not manifold, oriented and of positive area, (symmetry) where a symmetry is asked for and not
+/// found; `GridMapError`, `VerificationError`, `Cancelled`, and what the source throws.
+/// docs/pipeline.md
+Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& landmarks,
+                     const Options& options, const Context& context,
                      const StageObserver& observe = {});
 
 }  // namespace kinequad

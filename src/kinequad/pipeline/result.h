@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -8,8 +9,9 @@
 #include "kinequad/extract/quad_mesh.h"
 #include "kinequad/field/cross_field.h"
 #include "kinequad/gridmap/grid_map.h"
-#include "kinequad/mesh/intrinsic_metric.h"
 #include "kinequad/mesh/topology.h"
+#include "kinequad/pipeline/domain.h"
+#include "kinequad/pipeline/find_symmetry.h"
 #include "kinequad/pipeline/options.h"
 #include "kinequad/pipeline/stage_clock.h"
 
@@ -21,11 +23,12 @@ struct Result {
     double edge_length = 0;  ///< wanted edge length of the quads, in units of the input
     Topology topology;       ///< of the input
     Positions reference;     ///< n x 3: the input in the reference frame
-    IntrinsicMetric metric;  ///< that the field and the map were made for
+    std::optional<FoundSymmetry> symmetry;  ///< where the run made use of it
+    Domain domain;                          ///< what tensors, field and map are over
     DeformationTensors tensors;
     CrossField field;
     GridMap map;
-    QuadMesh quads;
+    QuadMesh quads;  ///< on the input
     std::vector<StageTime> times;  ///< of the stages in the order they ran
 };
 

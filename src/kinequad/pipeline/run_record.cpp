@@ -15,10 +15,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+std::string name_of(SymmetryMode mode) {
+    switch (mode) {
+        case SymmetryMode::field:
+            return "field";
+        case SymmetryMode::exact:
+            return "exact";
+        default:
+            return "none";
+    }
+}
+
 Json options_record(const Options& options) {
     const bool rest = options.reference == Options::rest_shape;
     return {
-        {"symmetry", "none"},
+        {"symmetry", name_of(*options.symmetry)},
         {"vertices", options.vertices},
         {"edge_length", options.edge_length},
         {"field", options.field == CrossFieldMethod::paper ? "paper" : "convex"},
@@ -46,7 +57,7 @@ Json field_record(const Result& result) {
     std::map<int, int> vertices_of_index;
     std::map<int, int> corners_of_index;
     int singularities = 0;
-    for (const Singularity& singularity : list_singularities(result.topology, result.field)) {
+    for (const Singularity& singularity : list_singularities(result.domain.topology, result.field)) {
         ++(singularity.boundary ? corners_of_index : vertices_of_index)[singularity.index];
         singularities += singularity.boundary ? 0 : 1;
     }
@@ -139,6 +150,10 @@ std::string format_binding(const QuadMesh& quads, const Triangles& triangles) {
     }
     text += "]}\n";
     return text;
+}
+
+std::string format_mirror(const QuadMesh& quads) {
+    return fmt::format("{{\"mirror\": [{}]}}\n", fmt::join(quads.mirror, ", "));
 }
 
 }  // namespace kinequad

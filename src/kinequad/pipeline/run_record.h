@@ -24,4 +24,7 @@ nlohmann::ordered_json make_run_record(const Result& result, const FrameSource& 
 /// since polygons were cut. Doubles read back exactly.
 std::string format_binding(const QuadMesh& quads, const Triangles& triangles);
 
+/// mirror.json: the mirror vertex of every quad vertex, `{"mirror": [...]}`.
+std::string format_mirror(const QuadMesh& quads);
+
 }  // namespace kinequad

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "kinequad/mesh/trace_geodesic.h"
 #include "kinequad/relax/sliding_quads.h"
 
 namespace kinequad {
@@ -32,7 +31,7 @@ void SlidingQuads::search_around(int v, const std::function<double()>& cost) {
         for (int i = 0; i < directions; ++i) {
             const double angle = 2 * std::numbers::pi * (i + 5 * length) / directions;
             const Vector2 step = length * size * Vector2(std::cos(angle), std::sin(angle));
-            place(v, trace_geodesic(topology_, metric_, before, step));
+            place(v, walked(before, step));
             const double value = cost();
             if (value < least) {
                 least = value;
@@ -64,62 +63,66 @@ std::vector<int> SlidingQuads::vertices_around(int quad, int reach) const {
 
 int SlidingQuads::unfold_pass(double safe_jacobian, int reach, const Context& context) {
     const FoldBarrier barrier{safe_jacobian, 100};
-    // The reference frame decides; the others only choose among what unfolds it alike.
+    // The references decide; the others only choose among what unfolds it alike.
     const auto cost = [&](int v) {
         double sum = 0.1 * cost_around(v, relaxing_barrier);
+        const double weight =
+            static_cast<double>(frames_.size()) / static_cast<double>(references_.size());
         for (const int c : corners_of(v)) {
-            sum += static_cast<double>(frames_.size()) *
-                   quad_cost(corners_in(frames_[0], c / 4), barrier);
+            for (const Reference& reference : references_) {
+                sum += weight * quad_cost(corners_in(reference.frame, c / 4), barrier);
+            }
         }
         return sum;
     };
     int folded = 0;
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-        if (least_scaled_jacobian(corners_in(frames_[0], q)) >= safe_jacobian) continue;
+        if (least_jacobian_of(q) >= safe_jacobian) continue;
         context.check_cancelled();
         for (const int v : vertices_around(q, reach)) {
             if (is_pinned_[at(v)] == 0) search_around(v, [&] { return cost(v); });
         }
-        folded += least_scaled_jacobian(corners_in(frames_[0], q)) <= 0 ? 1 : 0;
+        folded += least_jacobian_of(q) <= 0 ? 1 : 0;
     }
     return folded;
 }
 
-/// How far the middle of a quad and of its edges are from the input in the reference frame.
-double SlidingQuads::distance_of(int quad, const ClosestPoints& surface) const {
-    const QuadCorners p = corners_in(frames_[0], quad);
-    int hint = quads_.vertex[at(quads_.Q(quad, 0))].triangle;
+/// How far the middle of a quad and of its edges are from the input, at most, in the references.
+double SlidingQuads::distance_of(int quad) const {
     double farthest = 0;
-    const auto look = [&](const Vector3& point) {
-        const ClosestPoint closest = surface.find(point, hint);
-        hint = closest.point.triangle;
-        farthest = std::max(farthest, closest.squared_distance);
-    };
-    look((p[0] + p[1] + p[2] + p[3]) / 4);
-    for (std::size_t k = 0; k < 4; ++k) look((p[k] + p[(k + 1) % 4]) / 2);
+    for (const Reference& reference : references_) {
+        const QuadCorners p = corners_in(reference.frame, quad);
+        int hint = quads_.vertex[at(quads_.Q(quad, 0))].triangle;
+        const auto look = [&](const Vector3& point) {
+            const ClosestPoint closest = reference.surface.find(point, hint);
+            hint = closest.point.triangle;
+            farthest = std::max(farthest, closest.squared_distance);
+        };
+        look((p[0] + p[1] + p[2] + p[3]) / 4);
+        for (std::size_t k = 0; k < 4; ++k) look((p[k] + p[(k + 1) % 4]) / 2);
+    }
     return std::sqrt(farthest);
 }
 
-int SlidingQuads::hug_surface(double limit, int reach, const ClosestPoints& surface,
-                              const Context& context) {
+int SlidingQuads::hug_surface(double limit, int reach, const Context& context) {
     constexpr double distance_weight = 40;
     const FoldBarrier barrier{0.2, 100};
     int far = 0;
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
         if (q % 256 == 0) context.check_cancelled();
-        if (distance_of(q, surface) <= limit) continue;
+        if (distance_of(q) <= limit) continue;
         for (const int v : vertices_around(q, reach)) {
             if (is_pinned_[at(v)]) continue;
             search_around(v, [&] {
                 double sum = cost_around(v, barrier) / static_cast<double>(frames_.size());
                 for (const int c : corners_of(v)) {
-                    const double excess = std::max(0.0, distance_of(c / 4, surface) / limit - 0.5);
+                    const double excess = std::max(0.0, distance_of(c / 4) / limit - 0.5);
                     sum += distance_weight * excess * excess;
                 }
                 return sum;
             });
         }
-        far += distance_of(q, surface) > limit ? 1 : 0;
+        far += distance_of(q) > limit ? 1 : 0;
     }
     return far;
 }
@@ -156,8 +159,16 @@ bool SlidingQuads::move_onto(int v, const SurfacePoint& goal) {
 }
 
 int SlidingQuads::cover_extremities(double limit, const Context& context) {
-    const Frame& reference = frames_[0];
-    const ClosestPoints surface = reference_quads();
+    int placed = 0;
+    for (const Reference& reference : references_) {
+        placed += cover_extremities_in(reference.frame, limit, context);
+    }
+    return placed;
+}
+
+int SlidingQuads::cover_extremities_in(const Frame& reference, double limit,
+                                       const Context& context) {
+    const ClosestPoints surface = quads_in(reference);
     struct Far {
         double distance;
         int vertex;

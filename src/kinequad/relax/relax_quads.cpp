@@ -18,17 +18,23 @@ constexpr int releasing_pass = 8;
 constexpr int most_unfolding_passes = 16;
 constexpr int fitting_rounds = 6;
 
-std::vector<SampledFrame> sample_frames(const FrameSource& source, const RelaxOptions& options) {
-    const int frames = source.frame_count();
-    const int wanted = std::clamp(options.sampled_frames, 1, frames);
+/// The references, then the other frames.
+std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views,
+                                        const RelaxOptions& options) {
     std::vector<SampledFrame> sampled;
-    sampled.push_back({options.reference_is_rest_shape ? source.read_rest_shape()
-                                                       : source.read_frame(options.reference_frame),
-                       0.25 * wanted + 0.75});
-    for (int i = 1; i < wanted; ++i) {
-        const int frame = static_cast<int>(static_cast<long>(i) * frames / wanted);
-        if (!options.reference_is_rest_shape && frame == options.reference_frame) continue;
-        sampled.push_back({source.read_frame(frame), 1});
+    const auto wanted = [&](const RelaxView& view) {
+        return std::clamp(options.sampled_frames, 1, view.frames.frame_count());
+    };
+    for (const RelaxView& view : views) {
+        sampled.push_back({view.reference, 0.25 * wanted(view) + 0.75});
+    }
+    for (const RelaxView& view : views) {
+        for (int i = 1; i < wanted(view); ++i) {
+            const int frame =
+                static_cast<int>(static_cast<long>(i) * view.frames.frame_count() / wanted(view));
+            if (options.reference_frame == frame) continue;
+            sampled.push_back({view.frames.read_frame(frame), 1});
+        }
     }
     return sampled;
 }
@@ -48,14 +54,14 @@ int unfold(SlidingQuads& sliding, int most_passes, const Context& context) {
 /// Alternates what keeps quads unfolded and what keeps the two surfaces together, which are at odds
 /// in creases and on tips, and ends with the best state seen: least folded, then closest. Returns
 /// the number of quads that stay folded.
-int fit(SlidingQuads& sliding, double limit, const ClosestPoints& surface, const Context& context) {
+int fit(SlidingQuads& sliding, double limit, const Context& context) {
     struct State {
         int folded = 0;
         double distance = 0;
         QuadMesh quads;
     };
     const auto look = [&] {
-        return State{sliding.count_folded(), sliding.largest_distance(surface), sliding.quads()};
+        return State{sliding.count_folded(), sliding.largest_distance(), sliding.quads()};
     };
     unfold(sliding, releasing_pass, context);
     State best = look();
@@ -63,7 +69,7 @@ int fit(SlidingQuads& sliding, double limit, const ClosestPoints& surface, const
          ++round) {
         // Every other round starts from the best state with all vertices free.
         if (round % 2 == 1) sliding.restore(best.quads);
-        sliding.hug_surface(limit, 1 + round / 2, surface, context);
+        sliding.hug_surface(limit, 1 + round / 2, context);
         sliding.cover_extremities(limit, context);
         const bool is_last_resort = best.folded > 0 && round >= 2;
         if (is_last_resort) sliding.release();
@@ -79,22 +85,21 @@ int fit(SlidingQuads& sliding, double limit, const ClosestPoints& surface, const
 
 }  // namespace
 
-QuadMesh relax_quads(const QuadMesh& quads, const FrameSource& source, const Topology& topology,
-                     const IntrinsicMetric& metric, const RelaxOptions& options,
-                     const Context& context) {
-    SlidingQuads sliding(quads, topology, metric, source.triangles(),
-                         sample_frames(source, options));
+QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
+                     const Topology& topology, const IntrinsicMetric& metric,
+                     const RelaxOptions& options, const Context& context) {
+    SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
+                         sample_frames(views, options), static_cast<int>(views.size()));
     const double limit = options.distance_limit * sliding.mean_edge_length();
-    const ClosestPoints surface(sliding.reference(), source.triangles());
     for (int round = 0; round < options.rounds; ++round) {
         context.report_progress("relaxation", static_cast<double>(round) / options.rounds);
         const bool is_mending = round % 2 == 1 || round + 1 == options.rounds;
-        sliding.relax_pass(limit, surface, context);
+        sliding.relax_pass(limit, context);
         if (!is_mending) continue;
-        sliding.hug_surface(limit, 0, surface, context);
+        sliding.hug_surface(limit, 0, context);
         sliding.cover_extremities(limit, context);
     }
-    const int folded = fit(sliding, limit, surface, context);
+    const int folded = fit(sliding, limit, context);
     if (folded > 0) {
         context.write_log(
             LogLevel::warning,

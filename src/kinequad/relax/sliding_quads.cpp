@@ -33,7 +33,7 @@ Triangles cut_quads(const Quads& Q, const Positions& X) {
 
 SlidingQuads::SlidingQuads(const QuadMesh& quads, const Topology& topology,
                            const IntrinsicMetric& metric, const Triangles& F,
-                           std::vector<SampledFrame> frames)
+                           std::vector<SampledFrame> frames, int reference_count)
     : quads_(quads), topology_(topology), metric_(metric), F_(F) {
     link_corners();
     pin_boundary();
@@ -41,6 +41,10 @@ SlidingQuads::SlidingQuads(const QuadMesh& quads, const Topology& topology,
         Frame own{std::move(frame.input), {}, frame.weight};
         own.vertices.resize(static_cast<Eigen::Index>(quads.vertex.size()), 3);
         frames_.push_back(std::move(own));
+    }
+    for (int r = 0; r < reference_count; ++r) {
+        const Frame& frame = frames_[at(r)];
+        references_.push_back({frame, ClosestPoints(frame.input, F)});
     }
     for (int v = 0; v < static_cast<int>(quads_.vertex.size()); ++v) place(v, quads_.vertex[at(v)]);
 }
@@ -101,11 +105,18 @@ double SlidingQuads::cost_around(int v, const FoldBarrier& barrier) const {
     return sum;
 }
 
+/// Smallest scaled Jacobian of a quad over the references.
+double SlidingQuads::least_jacobian_of(int quad) const {
+    double least = 1;
+    for (const Reference& reference : references_) {
+        least = std::min(least, least_scaled_jacobian(corners_in(reference.frame, quad)));
+    }
+    return least;
+}
+
 double SlidingQuads::least_jacobian_around(int v) const {
     double least = 1;
-    for (const int c : corners_of(v)) {
-        least = std::min(least, least_scaled_jacobian(corners_in(frames_[0], c / 4)));
-    }
+    for (const int c : corners_of(v)) least = std::min(least, least_jacobian_of(c / 4));
     return least;
 }
 
@@ -150,29 +161,40 @@ Vector2 SlidingQuads::wanted_move(int v) const {
     return matrix.inverse() * right;
 }
 
+/// Where a straight walk ends; `start` where it would end on the boundary, which is the place of
+/// boundary vertices alone.
+SurfacePoint SlidingQuads::walked(const SurfacePoint& start, const Vector2& move) const {
+    const SurfacePoint end = trace_geodesic(topology_, metric_, start, move);
+    for (int k = 0; k < 3; ++k) {
+        const int opposite = 3 * end.triangle + (k + 1) % 3;
+        if (end.barycentric[k] < 1e-9 && topology_.twin[at(opposite)] < 0) return start;
+    }
+    return end;
+}
+
 void SlidingQuads::release() { is_pinned_ = is_on_boundary_; }
 
 /// Largest `distance_of` among the quads around `v` that are watched; 0 where none is.
-double SlidingQuads::watched_distance(int v, const ClosestPoints& surface) const {
+double SlidingQuads::watched_distance(int v) const {
     double farthest = 0;
     for (const int c : corners_of(v)) {
-        if (is_watched_[at(c / 4)]) farthest = std::max(farthest, distance_of(c / 4, surface));
+        if (is_watched_[at(c / 4)]) farthest = std::max(farthest, distance_of(c / 4));
     }
     return farthest;
 }
 
-bool SlidingQuads::improve(int v, double distance_limit, const ClosestPoints& surface) {
+bool SlidingQuads::improve(int v, double distance_limit) {
     const Vector2 move = wanted_move(v);
     const SurfacePoint before = quads_.vertex[at(v)];
     const Positions& X = frames_[0].vertices;
     const double size = (X.row(neighbour(*corners_of(v).begin(), 1)) - X.row(v)).norm();
     if (!move.allFinite() || move.norm() < least_move * size) return false;
     const double cost_before = cost_around(v, relaxing_barrier);
-    const double allowed = std::max(distance_limit, watched_distance(v, surface));
+    const double allowed = std::max(distance_limit, watched_distance(v));
     for (const double length : {1.0, 0.4}) {
-        place(v, trace_geodesic(topology_, metric_, before, length * move));
+        place(v, walked(before, length * move));
         if (cost_around(v, relaxing_barrier) < cost_before &&
-            watched_distance(v, surface) <= allowed) {
+            watched_distance(v) <= allowed) {
             return true;
         }
     }
@@ -180,39 +202,39 @@ bool SlidingQuads::improve(int v, double distance_limit, const ClosestPoints& su
     return false;
 }
 
-int SlidingQuads::relax_pass(double distance_limit, const ClosestPoints& surface,
-                             const Context& context) {
+int SlidingQuads::relax_pass(double distance_limit, const Context& context) {
     // Distances are slow: they are asked for only where quads are about to leave the surface.
     is_watched_.resize(at(static_cast<int>(quads_.Q.rows())));
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-        is_watched_[at(q)] = distance_of(q, surface) > 0.5 * distance_limit ? 1 : 0;
+        is_watched_[at(q)] = distance_of(q) > 0.5 * distance_limit ? 1 : 0;
     }
     int moves = 0;
     for (int v = 0; v < static_cast<int>(quads_.vertex.size()); ++v) {
         if (v % 512 == 0) context.check_cancelled();
-        if (is_pinned_[at(v)] == 0) moves += improve(v, distance_limit, surface) ? 1 : 0;
+        if (is_pinned_[at(v)] == 0) moves += improve(v, distance_limit) ? 1 : 0;
     }
     return moves;
 }
 
-ClosestPoints SlidingQuads::reference_quads() const {
-    const Positions& X = frames_[0].vertices;
-    return {X, cut_quads(quads_.Q, X)};
+ClosestPoints SlidingQuads::quads_in(const Frame& frame) const {
+    return {frame.vertices, cut_quads(quads_.Q, frame.vertices)};
 }
 
-double SlidingQuads::largest_distance(const ClosestPoints& surface) const {
+double SlidingQuads::largest_distance() const {
     double farthest = 0;
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-        farthest = std::max(farthest, distance_of(q, surface));
+        farthest = std::max(farthest, distance_of(q));
     }
-    const Frame& reference = frames_[0];
-    const ClosestPoints quads = reference_quads();
-    int hint = -1;
-    for (int x = 0; x < topology_.vertex_count; ++x) {
-        if (topology_.vertex_half_edge[at(x)] < 0) continue;
-        const ClosestPoint closest = quads.find(reference.input.row(x).transpose(), hint);
-        hint = closest.point.triangle;
-        farthest = std::max(farthest, std::sqrt(closest.squared_distance));
+    for (const Reference& reference : references_) {
+        const ClosestPoints quads = quads_in(reference.frame);
+        int hint = -1;
+        for (int x = 0; x < topology_.vertex_count; ++x) {
+            if (topology_.vertex_half_edge[at(x)] < 0) continue;
+            const ClosestPoint closest =
+                quads.find(reference.frame.input.row(x).transpose(), hint);
+            hint = closest.point.triangle;
+            farthest = std::max(farthest, std::sqrt(closest.squared_distance));
+        }
     }
     return farthest;
 }
@@ -220,7 +242,7 @@ double SlidingQuads::largest_distance(const ClosestPoints& surface) const {
 int SlidingQuads::count_folded() const {
     int folded = 0;
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-        folded += least_scaled_jacobian(corners_in(frames_[0], q)) <= 0 ? 1 : 0;
+        folded += least_jacobian_of(q) <= 0 ? 1 : 0;
     }
     return folded;
 }

@@ -18,30 +18,31 @@ struct SampledFrame {
 };
 
 /// A quad mesh whose vertices slide over the surface, watched in several frames at once. The first
-/// frame is the reference. Vertices on the boundary, and those that `cover_extremities` has put in
+/// frames are the references: folds and distances are looked at in these. Vertices on the boundary, and those that `cover_extremities` has put in
 /// place, stay.
 class SlidingQuads {
 public:
-    /// `F` m x 3 triangles of the input. The references have to outlive this.
+    /// `F` m x 3 triangles of the input; the first `reference_count` of `frames`, at least one, are
+    /// references. `topology`, `metric` and `F` have to outlive this.
     SlidingQuads(const QuadMesh& quads, const Topology& topology, const IntrinsicMetric& metric,
-                 const Triangles& F, std::vector<SampledFrame> frames);
+                 const Triangles& F, std::vector<SampledFrame> frames, int reference_count);
 
     /// Moves every vertex once towards the squares that fit the quads around it best, where that
     /// lowers their cost over all frames. Returns the number of moves.
-    /// No move takes a quad farther than `distance_limit` (units of the input) from `surface`, the
-    /// input in the reference frame.
-    int relax_pass(double distance_limit, const ClosestPoints& surface, const Context& context);
+    /// No move takes a quad farther than `distance_limit` (units of the input) from the input in a
+    /// reference.
+    int relax_pass(double distance_limit, const Context& context);
 
     /// Tries moves of the vertices up to `reach` quads around every quad whose scaled Jacobian in
-    /// the reference frame is below `safe_jacobian`, and keeps what opens it. Returns the number of
+    /// a reference is below `safe_jacobian`, and keeps what opens it. Returns the number of
     /// quads still folded there.
     int unfold_pass(double safe_jacobian, int reach, const Context& context);
 
-    /// Largest distance between the two surfaces in the reference frame, in units of the input,
-    /// seen from the middles of quads and edges and from the vertices of the input.
-    double largest_distance(const ClosestPoints& surface) const;
+    /// Largest distance between the two surfaces in the references, in units of the input, seen from
+    /// the middles of quads and edges and from the vertices of the input.
+    double largest_distance() const;
 
-    /// Number of quads folded in the reference frame.
+    /// Number of quads folded in a reference.
     int count_folded() const;
 
     /// Puts all vertices where `quads`, of the same connectivity, has them, and sets them free.
@@ -51,19 +52,17 @@ public:
     void release();
 
     /// Puts a quad vertex onto every vertex of the input that is farther than `limit` (units of the
-    /// input) from the quads in the reference frame and is no corner of what has been put in place
+    /// input) from the quads in a reference and is no corner of what has been put in place
     /// before. Returns the number of vertices put in place.
     int cover_extremities(double limit, const Context& context);
 
     /// Tries moves of the vertices up to `reach` quads around quads whose middle or edges leave the
-    /// surface by more than `limit` (units of the input) in the reference frame, as where they
-    /// bridge a crease, and keeps what brings them closer. `surface` is the input there. Returns
-    /// the number of quads that stay farther away.
-    int hug_surface(double limit, int reach, const ClosestPoints& surface, const Context& context);
+    /// surface by more than `limit` (units of the input) in a reference, as where they bridge a
+    /// crease, and keeps what brings them closer. Returns the number of quads that stay farther
+    /// away.
+    int hug_surface(double limit, int reach, const Context& context);
 
-    /// Positions (n x 3) of the input in the reference frame.
-    const Positions& reference() const { return frames_[0].input; }
-    /// Mean length of the quads' edges in the reference frame, in units of the input.
+    /// Mean length of the quads' edges in the first reference, in units of the input.
     double mean_edge_length() const;
 
     const QuadMesh& quads() const { return quads_; }
@@ -81,6 +80,11 @@ private:
         Positions vertices;
         double weight;
     };
+    /// A pose in which folds and distances are looked at: the first frames, with the input there.
+    struct Reference {
+        const Frame& frame;
+        ClosestPoints surface;
+    };
 
     Range corners_of(int v) const;
     int neighbour(int corner, int k) const;
@@ -88,14 +92,17 @@ private:
     double cost_around(int v, const FoldBarrier& barrier) const;
     double least_jacobian_around(int v) const;
     Vector2 wanted_move(int v) const;
-    double watched_distance(int v, const ClosestPoints& surface) const;
-    bool improve(int v, double distance_limit, const ClosestPoints& surface);
+    double least_jacobian_of(int quad) const;
+    SurfacePoint walked(const SurfacePoint& start, const Vector2& move) const;
+    double watched_distance(int v) const;
+    bool improve(int v, double distance_limit);
     void search_around(int v, const std::function<double()>& cost);
     bool move_onto(int v, const SurfacePoint& goal);
-    /// The quads in the reference frame as triangles: 2q and 2q + 1 of quad q.
-    ClosestPoints reference_quads() const;
+    /// The quads in a frame as triangles: 2q and 2q + 1 of quad q.
+    ClosestPoints quads_in(const Frame& frame) const;
+    int cover_extremities_in(const Frame& frame, double limit, const Context& context);
     std::vector<int> vertices_around(int quad, int reach) const;
-    double distance_of(int quad, const ClosestPoints& surface) const;
+    double distance_of(int quad) const;
     void place(int v, const SurfacePoint& point);
     void link_corners();
     void pin_boundary();
@@ -105,6 +112,7 @@ private:
     const IntrinsicMetric& metric_;
     const Triangles& F_;
     std::vector<Frame> frames_;
+    std::vector<Reference> references_;
     std::vector<int>
         corner_start_;  ///< corners of vertex v: corner_[corner_start_[v] .. corner_start_[v+1]]
     std::vector<int> corner_;  ///< corner c of quad q as 4q + c

@@ -1,0 +1,135 @@
+#include "kinequad/pipeline/solve_quads.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "kinequad/core/error.h"
+#include "kinequad/deformation/compute_deformation_tensors.h"
+#include "kinequad/extract/extract_quads.h"
+#include "kinequad/extract/split_rows.h"
+#include "kinequad/extract/verify_quad_mesh.h"
+#include "kinequad/field/compute_cross_field.h"
+#include "kinequad/field/cross_field_targets.h"
+#include "kinequad/field/verify_cross_field.h"
+#include "kinequad/gridmap/compute_grid_map.h"
+#include "kinequad/mesh/feature_edges.h"
+#include "kinequad/relax/relax_quads.h"
+
+namespace kinequad {
+namespace {
+
+DeformationTensors measure_deformation(const std::vector<DomainView>& views, const Result& result,
+                                       const Context& context) {
+    DeformationOptions options;
+    options.edge_length = result.edge_length;
+    std::optional<DeformationTensors> sum;
+    for (const DomainView& view : views) {
+        DeformationTensors tensors = compute_deformation_tensors(
+            view.frames, result.domain.topology, view.metric, options, context);
+        sum = sum ? add_tensors(*sum, tensors) : std::move(tensors);
+    }
+    return *sum;
+}
+
+void require_valid_field(const CrossFieldReport& report) {
+    if (report.valid()) return;
+    throw VerificationError(fmt::format(
+        "the cross field is not valid: index sum {} instead of {} quarters, {} wrong indices, {} "
+        "broken holonomies, {} unaligned triangles; please report this input",
+        report.index_sum, report.expected_index_sum, report.wrong_indices, report.broken_holonomies,
+        report.unaligned_triangles));
+}
+
+CrossField make_cross_field(const Result& result, const Positions& reference,
+                            const Context& context) {
+    CrossFieldTargetOptions target_options;
+    target_options.method = result.options.field;
+    target_options.alpha = *result.options.alpha;
+    target_options.curvature_weight = result.options.curvature;
+    target_options.edge_length = result.edge_length;
+    const CrossFieldTargets targets =
+        compute_cross_field_targets(result.domain.topology, result.domain.metric, result.tensors, target_options);
+    CrossFieldOptions options;
+    options.method = result.options.field;
+    options.singularity_cost = result.options.singularity_cost;
+    options.edge_length = result.edge_length;
+    if (result.domain.is_half()) options.mirror_edges = result.domain.curve_edges();
+    if (result.options.feature_angle > 0) {
+        options.feature_edges =
+            find_feature_edges(result.domain.topology, reference, result.options.feature_angle);
+    }
+    CrossField field =
+        compute_cross_field(result.domain.topology, result.domain.metric, targets, options, context);
+    require_valid_field(verify_cross_field(result.domain.topology, result.domain.metric, field, options));
+    return field;
+}
+
+void require_valid_map(const GridMap& map) {
+    const GridMapReport report = verify_grid_map(map);
+    if (report.valid()) return;
+    throw VerificationError(fmt::format(
+        "the grid map is not valid: {} flipped triangles, {} broken transitions, {} fractional "
+        "translations, {} singularities off the grid, {} wrong cone angles, {} boundary edges off "
+        "their "
+        "lines; please report this input",
+        report.flipped_triangles, report.broken_transitions, report.fractional_translations,
+        report.fractional_singularities, report.wrong_cone_angles,
+        report.unaligned_boundary_edges));
+}
+
+/// Quads of a half without edges between two vertices of the stationary curve inside.
+QuadMesh separate_from_curve(QuadMesh quads, const Domain& domain,
+                             const std::vector<DomainView>& views) {
+    std::vector<Positions> poses;
+    for (const DomainView& view : views) poses.push_back(view.reference);
+    std::vector<char> is_on_curve = curve_vertices(quads, domain);
+    return split_rows_across_curve(
+        std::move(quads), std::move(is_on_curve),
+        [&](const std::vector<SurfacePoint>& points, bool is_on_boundary) {
+            return middle_point(domain.surface, domain.topology, poses, points, is_on_boundary);
+        });
+}
+
+}  // namespace
+
+QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const Context& context,
+                     const std::function<void(const char* stage)>& finish_stage) {
+    const Domain& domain = result.domain;
+    result.tensors = measure_deformation(views, result, context);
+    finish_stage("deformation");
+
+    result.field = make_cross_field(result, views.front().reference, context);
+    finish_stage("field");
+
+    GridMapOptions map_options;
+    map_options.edge_length = result.edge_length;
+    result.map =
+        compute_grid_map(domain.topology, domain.metric, result.field, map_options, context);
+    require_valid_map(result.map);
+    finish_stage("map");
+
+    QuadMesh quads = extract_quads(result.map, context);
+    if (domain.is_half()) quads = separate_from_curve(std::move(quads), domain, views);
+    require_valid(verify_quad_mesh(quads, domain.topology));
+    finish_stage("extraction");
+
+    if (result.options.relax_rounds > 0) {
+        RelaxOptions relax_options;
+        relax_options.rounds = result.options.relax_rounds;
+        const bool is_frame = result.options.reference != Options::rest_shape;
+        relax_options.reference_frame =
+            is_single_pose(result.options) ? std::optional<int>(0)
+            : is_frame                     ? std::optional<int>(result.options.reference)
+                                           : std::nullopt;
+        std::vector<RelaxView> relax_views;
+        for (const DomainView& view : views) relax_views.push_back({view.frames, view.reference});
+        quads = relax_quads(quads, relax_views, domain.topology, domain.metric, relax_options,
+                            context);
+        require_valid(verify_quad_mesh(quads, domain.topology));
+    }
+    return quads;
+}
+
+}  // namespace kinequad

@@ -14,6 +14,7 @@
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/io/memory_sequence.h"
 #include "kinequad/pipeline/solve_quads.h"
+#include "kinequad/symmetry/even_out_half.h"
 #include "kinequad/transfer/carried_sequence.h"
 
 namespace kinequad {
@@ -61,6 +62,8 @@ void check_areas(const FrameSource& source, const Topology& topology,
                         source.name(), t));
     }
 }
+
+constexpr int largest_evening_rounds = 8;
 
 /// Shapes in which the two sides are matched: the reference and some frames, evenly chosen.
 std::vector<Positions> matching_shapes(const FrameSource& frames, const Positions& reference) {
@@ -145,6 +148,10 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
                                source.triangles());
     result.domain.topology = build_topology(half.mesh.F, half.mesh.vertex_count);
     const CarriedSequence near(frames, half.mesh.F, vertex_points(half.mesh));
+    half.mirrored = even_out_half(
+        half, choose_metric(near, result.domain.topology, near.carry(result.reference),
+                            result.options, context),
+        result.topology, metric, largest_evening_rounds, context);
     const CarriedSequence far(frames, half.mesh.F, half.mirrored, true);
     std::vector<DomainView> views;
     for (const CarriedSequence* side : {&near, &far}) {

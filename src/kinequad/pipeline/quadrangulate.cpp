@@ -14,6 +14,7 @@
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/io/memory_sequence.h"
 #include "kinequad/pipeline/solve_quads.h"
+#include "kinequad/relax/relax_quads.h"
 #include "kinequad/symmetry/even_out_half.h"
 #include "kinequad/transfer/carried_sequence.h"
 
@@ -77,11 +78,11 @@ std::vector<Positions> matching_shapes(const FrameSource& frames, const Position
 }
 
 /// The quads of both sides, from those of the half.
-QuadMesh mirror_quads(const FrameSource& frames, const Result& result, const QuadMesh& half,
-                      const Context& context) {
+QuadMesh mirror_quads(const FrameSource& frames, const IntrinsicMetric& metric,
+                      const Result& result, const QuadMesh& half, const Context& context) {
     const SymmetricHalf& surface = result.domain.surface;
     const std::vector<SurfacePoint> mirrored =
-        mirror_points(surface, result.topology, frames.triangles(),
+        mirror_points(surface, result.topology, metric, frames.triangles(),
                       matching_shapes(frames, result.reference), half.vertex, context);
     QuadMesh on_input{half.Q, {}, {}};
     for (const SurfacePoint& point : half.vertex) {
@@ -89,6 +90,16 @@ QuadMesh mirror_quads(const FrameSource& frames, const Result& result, const Qua
     }
     const std::vector<char> is_on_curve = curve_vertices(half, result.domain);
     QuadMesh whole = join_mirrored_quads(on_input, mirrored, is_on_curve);
+    if (result.options.relax_rounds > 0) {
+        // Where the surface is finer than the map is straight, mirrored quads can still fold.
+        RelaxOptions options;
+        options.rounds = 0;
+        options.pinned.assign(whole.vertex.size(), 0);
+        std::fill_n(options.pinned.begin(), half.vertex.size(), 1);
+        whole.vertex = relax_quads(whole, {{frames, result.reference}}, result.topology,
+                                   metric_of(result.topology, result.reference), options, context)
+                           .vertex;
+    }
     const MirrorReport report = verify_mirror(whole);
     if (!report.valid()) {
         throw VerificationError(fmt::format(
@@ -165,7 +176,7 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     finish_stage("symmetry");
 
     const QuadMesh quads = solve_quads(views, result, context, finish_stage);
-    result.quads = mirror_quads(frames, result, quads, context);
+    result.quads = mirror_quads(frames, metric, result, quads, context);
     require_valid(verify_quad_mesh(result.quads, result.topology));
     finish_stage("relaxation");
     return result;

@@ -16,11 +16,14 @@ struct RelaxOptions {
     int sampled_frames = 12;
     /// The reference is this frame, which is not looked at twice; empty where it is no frame.
     std::optional<int> reference_frame = 0;
-    /// Passes over all vertices.
+    /// Passes over all vertices; with 0 only what folds, leaves the surface or misses its tips
+    /// moves.
     int rounds = 6;
     /// Vertices of the input farther than this from the quads, in edge lengths of the quads, get a
     /// quad vertex of their own: finger tips, ears.
     double distance_limit = 0.4;
+    /// Vertices (v) that stay where they are, beside those on the boundary; empty for none.
+    std::vector<char> pinned = {};
 };
 
 /// An animation that quads are relaxed in, and the pose of it in which none may stay folded.

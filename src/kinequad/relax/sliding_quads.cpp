@@ -78,7 +78,13 @@ void SlidingQuads::pin_boundary() {
             }
         }
     }
-    is_on_boundary_ = is_pinned_;
+    stays_ = is_pinned_;
+}
+
+void SlidingQuads::pin(const std::vector<char>& vertices) {
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        if (vertices[v]) is_pinned_[v] = stays_[v] = 1;
+    }
 }
 
 SlidingQuads::Range SlidingQuads::corners_of(int v) const {
@@ -172,7 +178,7 @@ SurfacePoint SlidingQuads::walked(const SurfacePoint& start, const Vector2& move
     return end;
 }
 
-void SlidingQuads::release() { is_pinned_ = is_on_boundary_; }
+void SlidingQuads::release() { is_pinned_ = stays_; }
 
 /// Largest `distance_of` among the quads around `v` that are watched; 0 where none is.
 double SlidingQuads::watched_distance(int v) const {

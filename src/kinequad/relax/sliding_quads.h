@@ -27,6 +27,9 @@ public:
     SlidingQuads(const QuadMesh& quads, const Topology& topology, const IntrinsicMetric& metric,
                  const Triangles& F, std::vector<SampledFrame> frames, int reference_count);
 
+    /// Vertices (v, nonzero) that stay where they are, beside those on the boundary.
+    void pin(const std::vector<char>& vertices);
+
     /// Moves every vertex once towards the squares that fit the quads around it best, where that
     /// lowers their cost over all frames. Returns the number of moves.
     /// No move takes a quad farther than `distance_limit` (units of the input) from the input in a
@@ -117,7 +120,7 @@ private:
         corner_start_;  ///< corners of vertex v: corner_[corner_start_[v] .. corner_start_[v+1]]
     std::vector<int> corner_;  ///< corner c of quad q as 4q + c
     std::vector<char> is_pinned_;
-    std::vector<char> is_on_boundary_;
+    std::vector<char> stays_;       ///< v: on the boundary, or told to
     std::vector<char> is_watched_;  ///< q: see `relax_pass`
 };
 

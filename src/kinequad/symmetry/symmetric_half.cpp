@@ -1,11 +1,15 @@
 #include "kinequad/symmetry/symmetric_half.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
 
 #include "kinequad/core/error.h"
 #include "kinequad/mesh/pose_search.h"
 #include "kinequad/mesh/split_along_level.h"
+#include "kinequad/symmetry/boundary_arcs.h"
 
 namespace kinequad {
 namespace {
@@ -67,6 +71,116 @@ int boundary_half_edge_of(const Topology& topology, const SurfacePoint& point) {
     return topology.twin[at(h)] < 0 ? h : -1;
 }
 
+/// Gives every boundary vertex of the half that is off the curve an image on the boundary: a loop
+/// goes to the loop that most of its vertices are mapped next to, evenly by length. One that the
+/// curve crosses goes from crossing to crossing.
+class BoundaryMirror {
+public:
+    BoundaryMirror(const Topology& topology, const IntrinsicMetric& metric, const PoseSearch& search,
+                   const std::vector<SurfacePoint>& points)
+        : topology_(topology),
+          arcs_(topology, metric),
+          boundary_(boundary_half_edges(topology)),
+          search_(search),
+          points_(points) {}
+
+    void run(SymmetricHalf& half) const {
+        if (boundary_.empty()) return;
+        const Topology half_topology = build_topology(half.mesh.F, half.mesh.vertex_count);
+        for (std::vector<int> loop : boundary_loops(half_topology)) {
+            std::vector<int> vertices;
+            for (const int h : loop) vertices.push_back(half_topology.origin[at(h)]);
+            const auto on_curve = [&](int v) { return half.is_on_curve[at(v)] != 0; };
+            const auto first = std::find_if(vertices.begin(), vertices.end(), on_curve);
+            if (first == vertices.end()) {
+                mirror_loop(half, vertices);
+                continue;
+            }
+            std::rotate(vertices.begin(), first, vertices.end());
+            vertices.push_back(vertices.front());
+            std::vector<int> chain;
+            for (const int v : vertices) {
+                chain.push_back(v);
+                if (!on_curve(v)) continue;
+                if (chain.size() > 2) mirror_chain(half, chain);
+                chain.assign(1, v);
+            }
+        }
+    }
+
+private:
+    BoundaryPlace nearest_place(const SymmetricHalf& half, int v) const {
+        return arcs_.locate(nearest_on_edges(topology_, boundary_, search_,
+                                             search_.place(half.mirrored[at(v)])));
+    }
+
+    void mirror_loop(SymmetricHalf& half, const std::vector<int>& vertices) const {
+        std::map<int, int> votes;
+        std::vector<BoundaryPlace> near;
+        for (const int v : vertices) {
+            near.push_back(nearest_place(half, v));
+            ++votes[near.back().loop];
+        }
+        const int loop = std::max_element(votes.begin(), votes.end(), [](auto& a, auto& b) {
+                             return a.second < b.second;
+                         })->first;
+        const int own = arcs_.locate(points_[at(vertices.front())]).loop;
+        const double ratio = arcs_.length(loop) / std::max(arcs_.length(own), 1e-300);
+        const double turn = 2 * std::numbers::pi / arcs_.length(loop);
+        Complex start = 0;
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            if (near[i].loop != loop) continue;
+            const double here = arcs_.locate(points_[at(vertices[i])]).position;
+            start += std::polar(1.0, turn * (near[i].position + ratio * here));
+        }
+        const double offset = std::arg(start) / turn;
+        for (const int v : vertices) {
+            const double here = arcs_.locate(points_[at(v)]).position;
+            half.mirrored[at(v)] = arcs_.point_at({loop, offset - ratio * here});
+        }
+    }
+
+    /// `chain` runs along the boundary from one crossing of the curve to the next.
+    void mirror_chain(SymmetricHalf& half, const std::vector<int>& chain) const {
+        const BoundaryPlace from = arcs_.locate(points_[at(chain.front())]);
+        const BoundaryPlace to = arcs_.locate(points_[at(chain.back())]);
+        // A chain inside the surface is one of the curve itself.
+        if (from.loop < 0 || from.loop != to.loop) return;
+        const double whole = arcs_.length(from.loop);
+        const auto along = [&](const BoundaryPlace& place) {
+            const double way = std::fmod(place.position - from.position, whole);
+            return way < 0 ? way + whole : way;
+        };
+        const double own = along(to);
+        if (!(own > 0)) return;
+        for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
+            const double share = along(arcs_.locate(points_[at(chain[i])])) / own;
+            half.mirrored[at(chain[i])] =
+                arcs_.point_at({from.loop, from.position - share * (whole - own)});
+        }
+    }
+
+    const Topology& topology_;
+    BoundaryArcs arcs_;
+    std::vector<int> boundary_;
+    const PoseSearch& search_;
+    const std::vector<SurfacePoint>& points_;  ///< of the half's vertices on the input
+};
+
+/// The image of a point of the half's boundary between two vertices whose images are on the
+/// boundary of the input.
+SurfacePoint mirror_on_boundary(const BoundaryArcs& arcs, const SurfacePoint& a,
+                                const SurfacePoint& b, double share) {
+    const BoundaryPlace from = arcs.locate(a);
+    const BoundaryPlace to = arcs.locate(b);
+    if (from.loop < 0 || from.loop != to.loop) return share < 0.5 ? a : b;
+    const double whole = arcs.length(from.loop);
+    // The mirror image of the boundary runs the other way around.
+    double way = std::fmod(from.position - to.position, whole);
+    if (way < 0) way += whole;
+    return arcs.point_at({from.loop, from.position - share * way});
+}
+
 }  // namespace
 
 SymmetricHalf take_symmetric_half(const Topology& topology, const IntrinsicMetric& metric,
@@ -85,18 +199,15 @@ SymmetricHalf take_symmetric_half(const Topology& topology, const IntrinsicMetri
 
     const std::vector<Positions> shapes = {V};
     const PoseSearch search(topology, F, shapes);
-    const std::vector<int> boundary = boundary_half_edges(topology);
     SymmetricHalf half;
+    std::vector<SurfacePoint> half_points;
     for (int v = 0; v < split.mesh.vertex_count; ++v) {
         if (number[at(v)] < 0) continue;
         number[at(v)] = half.mesh.vertex_count++;
         const bool is_on_curve = split.is_on_level[at(v)] != 0;
         half.is_on_curve.push_back(is_on_curve ? 1 : 0);
-        SurfacePoint image = is_on_curve ? points[at(v)] : map.vertex_image[at(v)];
-        if (!is_on_curve && topology.is_boundary_vertex(v)) {
-            image = nearest_on_edges(topology, boundary, search, search.place(image));
-        }
-        half.mirrored.push_back(image);
+        half.mirrored.push_back(is_on_curve ? points[at(v)] : map.vertex_image[at(v)]);
+        half_points.push_back(points[at(v)]);
     }
     half.mesh.F.resize(static_cast<Eigen::Index>(triangles.size()), 3);
     half.mesh.barycentric.resize(3 * half.mesh.F.rows(), 3);
@@ -108,6 +219,7 @@ SymmetricHalf take_symmetric_half(const Topology& topology, const IntrinsicMetri
             split.mesh.barycentric.middleRows<3>(3 * static_cast<Eigen::Index>(t));
         for (int k = 0; k < 3; ++k) half.mesh.F(row, k) = number[at(split.mesh.F(t, k))];
     }
+    BoundaryMirror(topology, metric, search, half_points).run(half);
     return half;
 }
 
@@ -133,12 +245,13 @@ bool lies_on_curve(const SymmetricHalf& half, const Topology& topology, const Su
 }
 
 std::vector<SurfacePoint> mirror_points(const SymmetricHalf& half, const Topology& topology,
-                                        const Triangles& F, const std::vector<Positions>& frames,
+                                        const IntrinsicMetric& metric, const Triangles& F,
+                                        const std::vector<Positions>& frames,
                                         const std::vector<SurfacePoint>& points,
                                         const Context& context) {
     const Topology half_topology = build_topology(half.mesh.F, half.mesh.vertex_count);
     const PoseSearch search(topology, F, frames);
-    const std::vector<int> boundary = boundary_half_edges(topology);
+    const BoundaryArcs arcs(topology, metric);
     std::vector<SurfacePoint> result;
     result.reserve(points.size());
     for (const SurfacePoint& point : points) {
@@ -156,8 +269,14 @@ std::vector<SurfacePoint> mirror_points(const SymmetricHalf& half, const Topolog
             const int v = half.mesh.F(point.triangle, k);
             wanted += point.barycentric[k] * search.place(half.mirrored[at(v)]);
         }
-        if (boundary_half_edge_of(half_topology, point) >= 0) {
-            result.push_back(nearest_on_edges(topology, boundary, search, wanted));
+        const int h = boundary_half_edge_of(half_topology, point);
+        if (h >= 0) {
+            const double share = point.triangle == h / 3
+                                     ? point.barycentric[Topology::next(h) % 3]
+                                     : 0.0;
+            result.push_back(mirror_on_boundary(
+                arcs, half.mirrored[at(half_topology.origin[at(h)])],
+                half.mirrored[at(half_topology.target(h))], share));
             continue;
         }
         const int start = half.mirrored[at(half.mesh.F(point.triangle, nearest))].triangle;

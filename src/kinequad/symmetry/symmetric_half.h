@@ -19,18 +19,18 @@ struct SymmetricHalf {
 
 /// Cuts the surface along the stationary curve of `map` and keeps the side of positive height, of
 /// components that the curve does not meet the whole ones there. Vertices of the input next to the
-/// curve come to lie on it (see `split_along_level`); images of boundary vertices are moved onto
-/// the boundary, as seen in the shape `V` (n x 3). Throws `InputError` (symmetry) where nothing
-/// lies on the positive side, or the boundary has no image. docs/symmetry.md
+/// curve come to lie on it (see `split_along_level`); images of boundary vertices lie on the
+/// boundary: a loop goes to the one that its vertices are mapped next to in the shape `V` (n x 3).
+/// Throws `InputError` (symmetry) where nothing lies on the positive side. docs/symmetry.md
 SymmetricHalf take_symmetric_half(const Topology& topology, const IntrinsicMetric& metric,
                                   const SymmetryMap& map, const Positions& V, const Triangles& F);
 
 /// Mirror images on the input of points of the half, given in its triangles: the points of the
 /// surface nearest in all `frames` (each n x 3) together to where the mirrored corners of the
 /// half's triangle put them. A point of the curve stays, a point of the boundary goes to the
-/// boundary. `topology` and `F` are those of the input.
+/// boundary, evenly by length. `topology`, `metric` and `F` are those of the input.
 std::vector<SurfacePoint> mirror_points(const SymmetricHalf& half, const Topology& topology,
-                                        const Triangles& F, const std::vector<Positions>& frames,
+                                        const IntrinsicMetric& metric, const Triangles& F, const std::vector<Positions>& frames,
                                         const std::vector<SurfacePoint>& points,
                                         const Context& context);
 

@@ -123,6 +123,7 @@ QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const
             is_single_pose(result.options) ? std::optional<int>(0)
             : is_frame                     ? std::optional<int>(result.options.reference)
                                            : std::nullopt;
+        if (domain.is_half()) relax_options.sliding_edges = domain.curve_edges();
         std::vector<RelaxView> relax_views;
         for (const DomainView& view : views) relax_views.push_back({view.frames, view.reference});
         quads = relax_quads(quads, relax_views, domain.topology, domain.metric, relax_options,

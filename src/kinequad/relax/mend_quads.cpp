@@ -31,7 +31,7 @@ void SlidingQuads::search_around(int v, const std::function<double()>& cost) {
         for (int i = 0; i < directions; ++i) {
             const double angle = 2 * std::numbers::pi * (i + 5 * length) / directions;
             const Vector2 step = length * size * Vector2(std::cos(angle), std::sin(angle));
-            place(v, walked(before, step));
+            place(v, walked(v, before, step));
             const double value = cost();
             if (value < least) {
                 least = value;
@@ -202,8 +202,11 @@ int SlidingQuads::cover_extremities_in(const Frame& reference, double limit,
         std::sort(corners.begin(), corners.end());
         const int h = topology_.vertex_half_edge[at(f.vertex)];
         const SurfacePoint extremity{h / 3, Vector3::Unit(h % 3)};
+        const bool is_on_line = topology_.is_boundary_vertex(f.vertex);
+        if (is_on_line && (!walk_ || walk_->half_edge_of(extremity) < 0)) continue;
         for (const auto& [distance, v] : corners) {
-            if (is_pinned_[at(v)]) continue;
+            // The tip of a line of symmetry is for a vertex of the line, all others for the rest.
+            if (is_pinned_[at(v)] || (slides_[at(v)] != 0) != is_on_line) continue;
             if (!move_onto(v, extremity)) continue;
             is_pinned_[at(v)] = 1;
             for (const int c : corners_of(v)) is_busy[at(c / 4)] = 1;

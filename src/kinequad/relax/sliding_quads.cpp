@@ -79,6 +79,17 @@ void SlidingQuads::pin_boundary() {
         }
     }
     stays_ = is_pinned_;
+    slides_.assign(quads_.vertex.size(), 0);
+}
+
+void SlidingQuads::let_slide(const std::vector<int>& edges) {
+    if (edges.empty()) return;
+    walk_.emplace(topology_, metric_, edges);
+    for (std::size_t v = 0; v < quads_.vertex.size(); ++v) {
+        if (!stays_[v] || walk_->half_edge_of(quads_.vertex[v]) < 0) continue;
+        slides_[v] = 1;
+        stays_[v] = is_pinned_[v] = 0;
+    }
 }
 
 void SlidingQuads::pin(const std::vector<char>& vertices) {
@@ -167,9 +178,13 @@ Vector2 SlidingQuads::wanted_move(int v) const {
     return matrix.inverse() * right;
 }
 
-/// Where a straight walk ends; `start` where it would end on the boundary, which is the place of
-/// boundary vertices alone.
-SurfacePoint SlidingQuads::walked(const SurfacePoint& start, const Vector2& move) const {
+/// Where a straight walk of vertex `v` ends; `start` where it would end on the boundary, which is
+/// the place of boundary vertices alone. Those that slide keep to it.
+SurfacePoint SlidingQuads::walked(int v, const SurfacePoint& start, const Vector2& move) const {
+    if (slides_[at(v)]) {
+        const int h = walk_->half_edge_of(start);
+        return h < 0 ? start : walk_->walk(start, h, move.dot(walk_->direction(h)));
+    }
     const SurfacePoint end = trace_geodesic(topology_, metric_, start, move);
     for (int k = 0; k < 3; ++k) {
         const int opposite = 3 * end.triangle + (k + 1) % 3;
@@ -198,7 +213,7 @@ bool SlidingQuads::improve(int v, double distance_limit) {
     const double cost_before = cost_around(v, relaxing_barrier);
     const double allowed = std::max(distance_limit, watched_distance(v));
     for (const double length : {1.0, 0.4}) {
-        place(v, walked(before, length * move));
+        place(v, walked(v, before, length * move));
         if (cost_around(v, relaxing_barrier) < cost_before &&
             watched_distance(v) <= allowed) {
             return true;

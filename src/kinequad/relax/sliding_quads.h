@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "kinequad/core/context.h"
 #include "kinequad/extract/quad_mesh.h"
+#include "kinequad/mesh/boundary_walk.h"
 #include "kinequad/mesh/closest_points.h"
 #include "kinequad/mesh/intrinsic_metric.h"
 #include "kinequad/relax/quad_cost.h"
@@ -26,6 +28,9 @@ public:
     /// references. `topology`, `metric` and `F` have to outlive this.
     SlidingQuads(const QuadMesh& quads, const Topology& topology, const IntrinsicMetric& metric,
                  const Triangles& F, std::vector<SampledFrame> frames, int reference_count);
+
+    /// Sets vertices on the boundary edges `edges` of the surface free to move along them.
+    void let_slide(const std::vector<int>& edges);
 
     /// Vertices (v, nonzero) that stay where they are, beside those on the boundary.
     void pin(const std::vector<char>& vertices);
@@ -96,7 +101,7 @@ private:
     double least_jacobian_around(int v) const;
     Vector2 wanted_move(int v) const;
     double least_jacobian_of(int quad) const;
-    SurfacePoint walked(const SurfacePoint& start, const Vector2& move) const;
+    SurfacePoint walked(int v, const SurfacePoint& start, const Vector2& move) const;
     double watched_distance(int v) const;
     bool improve(int v, double distance_limit);
     void search_around(int v, const std::function<double()>& cost);
@@ -121,6 +126,8 @@ private:
     std::vector<int> corner_;  ///< corner c of quad q as 4q + c
     std::vector<char> is_pinned_;
     std::vector<char> stays_;       ///< v: on the boundary, or told to
+    std::vector<char> slides_;      ///< v: on the boundary, along which it may move
+    std::optional<BoundaryWalk> walk_;
     std::vector<char> is_watched_;  ///< q: see `relax_pass`
 };
 

@@ -15,7 +15,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// How much shearing the grid lines, and turning them away from the cross, count against stretching
 /// quads in the energy `2 (Re a - 1)^2 + 2 turn_weight (Im a)^2 + 2 (Re b)^2 + 2 shear_weight (Im
 /// b)^2` of a triangle: a stretched quad is still a rectangle along the cross.
-inline constexpr double shear_weight = 4;
+inline constexpr double shear_weight = 8;
 inline constexpr double turn_weight = 2;
 
 /// The shape a triangle should have in the parameter plane, as what is needed to differentiate a

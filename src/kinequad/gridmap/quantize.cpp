@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -18,6 +19,8 @@ constexpr double wanted_room = 1.3;
 /// Length every edge between cones should keep, in cells; whole ones have at least 1.
 constexpr double wanted_distance = 1.2;
 constexpr double room_weight = 10;
+/// How often rounding may get stuck before a scale is given up.
+constexpr int most_attempts = 12;
 
 class Rounding {
 public:
@@ -133,21 +136,22 @@ private:
     }
 
     bool round_all() {
-        const auto count = best_.size();
-        Eigen::MatrixXd compliance =
-            stiffness_.llt().solve(Eigen::MatrixXd::Identity(count, count));
-        std::vector<char> deferred(static_cast<std::size_t>(count), 0);
+        Eigen::MatrixXd compliance = free_compliance();
+        std::vector<char> deferred(is_fixed_.size(), 0);
         int since_room = 0;
-        int patience = 3;
+        int attempt = 0;
         while (true) {
             context_.check_cancelled();
             const int i = easiest(compliance, deferred);
             if (i < 0) {
                 if (free_unknowns().empty()) return true;
-                // All that is left is blocked: make room anew and try again.
-                if (--patience < 0) return false;
+                // All that is left is blocked: make room anew, from the second time on with those
+                // around it, the farther the more often, and try again.
+                if (++attempt > most_attempts) return false;
+                release_around(attempt / 2);
                 std::fill(deferred.begin(), deferred.end(), 0);
                 make_room(30);
+                compliance = free_compliance();
                 continue;
             }
             if (!fix(i, compliance)) {
@@ -162,6 +166,33 @@ private:
                 make_room(3);
                 std::fill(deferred.begin(), deferred.end(), 0);
             }
+        }
+    }
+
+    /// How the unknowns that are not fixed give way, zero for the others.
+    Eigen::MatrixXd free_compliance() const {
+        const std::vector<int> free = free_unknowns();
+        const auto count = static_cast<Eigen::Index>(free.size());
+        Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(best_.size(), best_.size());
+        const Eigen::MatrixXd block = stiffness_(free, free);
+        const Eigen::MatrixXd inverse = block.llt().solve(Eigen::MatrixXd::Identity(count, count));
+        compliance(free, free) = inverse;
+        return compliance;
+    }
+
+    /// Frees the fixed unknowns that share a triangle of cones with a free one, `rings` times over.
+    void release_around(int rings) {
+        for (int ring = 0; ring < rings; ++ring) {
+            std::vector<char> is_fixed = is_fixed_;
+            for (int t = 0; t < cone_.triangle_count(); ++t) {
+                const LinearForm<double> form = cone_.determinant_gradient(t);
+                const bool is_near = std::any_of(form.begin(), form.end(), [&](const auto& term) {
+                    return is_fixed_[static_cast<std::size_t>(term.first)] == 0;
+                });
+                if (!is_near) continue;
+                for (const auto& term : form) is_fixed[static_cast<std::size_t>(term.first)] = 0;
+            }
+            is_fixed_ = std::move(is_fixed);
         }
     }
 

@@ -9,6 +9,7 @@
 #include "kinequad/extract/quad_mesh.h"
 #include "kinequad/field/cross_field.h"
 #include "kinequad/gridmap/grid_map.h"
+#include "kinequad/mesh/refined_mesh.h"
 #include "kinequad/mesh/topology.h"
 #include "kinequad/pipeline/domain.h"
 #include "kinequad/pipeline/find_symmetry.h"
@@ -23,6 +24,8 @@ struct Result {
     double edge_length = 0;  ///< wanted edge length of the quads, in units of the input
     Topology topology;       ///< of the input
     Positions reference;     ///< n x 3: the input in the reference frame
+    /// The input refined, where it is too coarse for the quads; symmetry is then over this.
+    std::optional<RefinedMesh> refined;
     std::optional<FoundSymmetry> symmetry;  ///< where the run made use of it
     Domain domain;                          ///< what tensors, field and map are over
     DeformationTensors tensors;

@@ -288,12 +288,12 @@ private:
 
 }  // namespace
 
-Quantization quantize(const ConeTriangulation& cone, const Eigen::MatrixXd& stiffness,
-                      const Eigen::VectorXd& best, double quad_count, const Context& context) {
+std::optional<Quantization> quantize(const ConeTriangulation& cone,
+                                     const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& best,
+                                     double quad_count, const Context& context) {
     // Scales are tried around the one that should give the wanted count; where cones block each
-    // other at one, a slightly different one often works, and a much larger one nearly always.
-    constexpr std::array<double, 12> detours = {1,    1.01, 0.99, 1.02, 0.98, 1.03,
-                                                0.97, 1.1,  1.2,  1.4,  1.8,  2.5};
+    // other at one, a slightly different one often works.
+    constexpr std::array<double, 8> detours = {1, 1.01, 0.99, 1.02, 0.98, 1.03, 0.97, 1.1};
     double centre = std::sqrt(quad_count / cone.area());
     std::size_t blocked = 0;
     std::optional<Quantization> closest;
@@ -324,11 +324,7 @@ Quantization quantize(const ConeTriangulation& cone, const Eigen::MatrixXd& stif
             ++blocked;
         }
     }
-    if (!closest) {
-        throw GridMapError(
-            "the singularities find no room on the integer grid; ask for more vertices");
-    }
-    return *closest;
+    return closest;
 }
 
 }  // namespace kinequad

@@ -19,8 +19,10 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Multiples of the wanted number of quads that are tried one after the other.
-constexpr std::array<double, 5> densities = {1, 1.5, 2.5, 5, 12};
+constexpr std::array<double, 6> densities = {1, 1.5, 2.5, 5, 12, 40};
 constexpr int most_rounds = 3;
+/// Bounds of the refinement where singularities are held back; no mesh gets more than twice as
+/// fine.
 constexpr int most_refinements = 12;
 constexpr int relaxing_steps = 8;
 
@@ -136,7 +138,9 @@ std::string describe(const GridMapReport& report) {
 std::optional<Eigen::VectorXd> reach_integers(ChartedMesh& mesh, MapVariables& variables,
                                               double scale, Eigen::VectorXd x,
                                               const Eigen::VectorXd& goal, const Context& context) {
-    for (int round = 0; round < most_refinements; ++round) {
+    const int most_triangles = 2 * mesh.triangle_count() + 5000;
+    for (int round = 0; round < most_refinements && mesh.triangle_count() < most_triangles;
+         ++round) {
         TriangleSystem system(variables);
         const std::vector<TargetShape> shapes = target_shapes(mesh, scale);
         Arrival arrival = bring_to_integers(variables, system, shapes, x, goal, context);
@@ -182,7 +186,8 @@ Attempt map_at_density(ChartedMesh& mesh, double quad_count, const Context& cont
             attempt.depends_on_density = false;
             context.write_log(LogLevel::info, "gridmap: " + attempt.obstacle);
             for (const int h :
-                 longest_sides(mesh, mesh.target, reversed_triangles(shapes, corners))) {
+                 longest_sides(mesh, mesh.target,
+                               with_neighbours(mesh, reversed_triangles(shapes, corners)))) {
                 mesh.split_edge(h);
             }
             continue;

@@ -18,17 +18,17 @@ namespace {
 constexpr double wanted_room = 1.3;
 /// Length every edge between cones should keep, in cells; whole ones have at least 1.
 constexpr double wanted_distance = 1.2;
-constexpr double room_weight = 10;
 /// How often rounding may get stuck before a scale is given up.
 constexpr int most_attempts = 12;
 
 class Rounding {
 public:
     Rounding(ConeTriangulation cone, const Eigen::MatrixXd& stiffness, Eigen::VectorXd best,
-             const Context& context)
+             double room_weight, const Context& context)
         : cone_(std::move(cone)),
           stiffness_(stiffness),
           best_(std::move(best)),
+          room_weight_(room_weight),
           context_(context),
           is_fixed_(static_cast<std::size_t>(best_.size()), 0) {}
 
@@ -48,11 +48,11 @@ private:
         double sum = away.dot(stiffness_ * away);
         for (int i = 0; i < cone_.triangle_count(); ++i) {
             const double lack = wanted_room - cone_.determinant(i);
-            if (lack > 0) sum += room_weight * lack * lack;
+            if (lack > 0) sum += room_weight_ * lack * lack;
         }
         for (const int h : cone_.edges()) {
             const double lack = wanted_length(h) - cone_.edge_length(h);
-            if (lack > 0) sum += room_weight * lack * lack;
+            if (lack > 0) sum += room_weight_ * lack * lack;
         }
         return sum;
     }
@@ -76,16 +76,16 @@ private:
 
     /// Adds the square of `lack - gradient * step` to the normal equations over the unknowns that
     /// have a `place`.
-    static void add_residual(double lack, const LinearForm<double>& gradient,
-                             const std::vector<int>& place, Eigen::MatrixXd& matrix,
-                             Eigen::VectorXd& right) {
+    void add_residual(double lack, const LinearForm<double>& gradient,
+                      const std::vector<int>& place, Eigen::MatrixXd& matrix,
+                      Eigen::VectorXd& right) const {
         for (const auto& [i, gi] : gradient) {
             const int row = place[static_cast<std::size_t>(i)];
             if (row < 0) continue;
-            right[row] += room_weight * lack * gi;
+            right[row] += room_weight_ * lack * gi;
             for (const auto& [j, gj] : gradient) {
                 const int column = place[static_cast<std::size_t>(j)];
-                if (column >= 0 && column <= row) matrix(row, column) += room_weight * gi * gj;
+                if (column >= 0 && column <= row) matrix(row, column) += room_weight_ * gi * gj;
             }
         }
     }
@@ -282,6 +282,7 @@ private:
     ConeTriangulation cone_;
     const Eigen::MatrixXd& stiffness_;
     Eigen::VectorXd best_;
+    double room_weight_;  ///< of the squares of lacking room against the energy
     const Context& context_;
     std::vector<char> is_fixed_;
 };
@@ -292,19 +293,25 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
                                      const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& best,
                                      double quad_count, const Context& context) {
     // Scales are tried around the one that should give the wanted count; where cones block each
-    // other at one, a slightly different one often works.
-    constexpr std::array<double, 8> detours = {1, 1.01, 0.99, 1.02, 0.98, 1.03, 0.97, 1.1};
+    // other at one, a slightly different one often works, or room that counts more against shape.
+    struct Detour {
+        double scale;
+        double room_weight;
+    };
+    constexpr std::array<Detour, 8> detours = {
+        {{1, 10}, {1.01, 10}, {0.99, 10}, {1, 40}, {1.02, 40}, {0.98, 40}, {1, 150}, {1.1, 150}}};
     double centre = std::sqrt(quad_count / cone.area());
     std::size_t blocked = 0;
     std::optional<Quantization> closest;
     const auto miss = [&](const Quantization& q) { return std::abs(q.quads / quad_count - 1); };
     for (int attempt = 0; attempt < 16 && blocked < detours.size(); ++attempt) {
         // Once there is a result, far detours cannot bring a closer one.
-        if (closest && detours[blocked] > 1.05) break;
-        const double scale = centre * detours[blocked];
+        if (closest && detours[blocked].scale > 1.05) break;
+        const double scale = centre * detours[blocked].scale;
         ConeTriangulation scaled = cone;
         scaled.scale(scale);
-        Rounding rounding(std::move(scaled), stiffness, scale * best, context);
+        Rounding rounding(std::move(scaled), stiffness, scale * best, detours[blocked].room_weight,
+                          context);
         const std::optional<Eigen::VectorXd> integers = rounding.run();
         if (!integers) {
             context.write_log(

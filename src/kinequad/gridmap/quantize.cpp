@@ -19,7 +19,7 @@ constexpr double wanted_room = 1.3;
 /// Length every edge between cones should keep, in cells; whole ones have at least 1.
 constexpr double wanted_distance = 1.2;
 /// How often rounding may get stuck before a scale is given up.
-constexpr int most_attempts = 12;
+constexpr int most_attempts = 6;
 
 class Rounding {
 public:

@@ -105,6 +105,26 @@ QuadMesh mirror_quads(const FrameSource& frames, const Topology& topology,
     return whole;
 }
 
+/// Says where the wanted number of vertices was missed, and why.
+void note_density(Result& result, const Context& context) {
+    constexpr double allowed = 0.1;
+    const double wanted =
+        result.options.edge_length > 0 ? result.map.wanted_quads : result.options.vertices;
+    const double made = result.options.edge_length > 0
+                            ? result.map.quads
+                            : static_cast<double>(result.quads.vertex.size());
+    if (std::abs(made / wanted - 1) <= allowed) return;
+    const SurfaceCounts counts = count_surface(result.topology);
+    const auto singular = (result.field.index.array() != 0).count();
+    result.notes.push_back(fmt::format(
+        "{:.0f} {} instead of {:.0f}: {} singularities and corners on {} parts with {} boundary "
+        "loops {}",
+        made, result.options.edge_length > 0 ? "quads" : "vertices", wanted, singular,
+        counts.components, counts.boundary_loops,
+        made > wanted ? "need as many" : "leave no closer number"));
+    context.write_log(LogLevel::warning, result.notes.back());
+}
+
 /// Takes quads and domain from the refined mesh to the input.
 void put_on_input(Result& result) {
     if (!result.refined) return;
@@ -166,6 +186,7 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     if (result.options.symmetry == SymmetryMode::none) {
         result.quads = solve_quads({{frames, reference, metric}}, result, context, finish_stage);
         put_on_input(result);
+        note_density(result, context);
         finish_stage("relaxation");
         return result;
     }
@@ -177,8 +198,8 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     result.domain.topology = build_topology(half.mesh.F, half.mesh.vertex_count);
     const CarriedSequence near(frames, half.mesh.F, vertex_points(half.mesh));
     half.mirrored = even_out_half(
-        half, choose_metric(near, result.domain.topology, near.carry(reference), result.options,
-                            context),
+        half,
+        choose_metric(near, result.domain.topology, near.carry(reference), result.options, context),
         topology, metric, largest_evening_rounds, context);
     const CarriedSequence far(frames, half.mesh.F, half.mirrored, true);
     std::vector<DomainView> views;
@@ -195,6 +216,7 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     const QuadMesh quads = solve_quads(views, result, context, finish_stage);
     result.quads = mirror_quads(frames, topology, metric, reference, result, quads, context);
     put_on_input(result);
+    note_density(result, context);
     require_valid(verify_quad_mesh(result.quads, result.topology));
     finish_stage("relaxation");
     return result;

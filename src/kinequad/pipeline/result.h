@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct Result {
     CrossField field;
     GridMap map;
     QuadMesh quads;  ///< on the input
+    /// Where the wanted density was not met, and why; a line each.
+    std::vector<std::string> notes;
     std::vector<StageTime> times;  ///< of the stages in the order they ran
 };
 

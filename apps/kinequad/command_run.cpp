@@ -14,8 +14,10 @@
 #include "kinequad/io/frame_digest.h"
 #include "kinequad/io/frame_sink.h"
 #include "kinequad/io/landmarks.h"
+#include "kinequad/io/repaired_sequence.h"
 #include "kinequad/io/write_mesh.h"
 #include "kinequad/measure/measure_sequence.h"
+#include "kinequad/pipeline/check_input.h"
 #include "kinequad/pipeline/dump_stage.h"
 #include "kinequad/pipeline/quadrangulate.h"
 #include "kinequad/pipeline/run_record.h"
@@ -41,6 +43,8 @@ struct RunCommand {
     std::string dump_directory;
     bool no_metrics = false;
     bool json = false;
+    bool check = false;
+    bool repair = false;
 };
 
 Options options_of(const RunCommand& command, const FrameSource& source) {
@@ -91,11 +95,39 @@ SequenceMetrics measure(const Result& result, const FrameSource& source, const C
                             context);
 }
 
+/// Prints what is found in the mesh; throws, for the exit code, where a run would refuse it.
+void check(const RunCommand& command, const FrameSource& source, Session& session,
+           const Context& context) {
+    const int reference = parse_reference(command.reference, source);
+    const Positions V =
+        reference == Options::rest_shape ? source.read_rest_shape() : source.read_frame(reference);
+    MeshCheckOptions options;
+    options.most_crossings = 1000;
+    const MeshReport report = check_mesh(source.triangles(), V, options, context);
+    session.finish();
+    fmt::print("{}", command.json ? make_mesh_record(report, source.name()).dump(2) + "\n"
+                                  : format_mesh_report(report, source.name()));
+    if (!report.is_accepted()) {
+        throw InputError(InputFault::mesh,
+                         fmt::format("{}: {}", source.name(), describe_refusals(report).front()));
+    }
+}
+
 void run(const RunCommand& command, Session& session) {
     const Context context = session.make_context();
     StageClock clock;
     std::vector<StageTime> opening;
-    const std::unique_ptr<FrameSource> source = command.input_options.open(command.input);
+    const std::unique_ptr<FrameSource> input = command.input_options.open(command.input);
+    std::unique_ptr<RepairedSequence> repaired;
+    if (command.repair) {
+        repaired = std::make_unique<RepairedSequence>(*input, context);
+        for (const std::string& action : repaired->actions()) {
+            context.write_log(LogLevel::warning, "repair: " + action);
+        }
+    }
+    const FrameSource* const source = repaired ? repaired.get() : input.get();
+    if (command.check) return check(command, *source, session, context);
+    require(!command.output.empty(), InputFault::usage, "--output is required; give -o FOLDER");
     OutputFolder output(command.output);
     clock.finish_stage("open", opening);
 
@@ -116,8 +148,9 @@ void run(const RunCommand& command, Session& session) {
 
     clock = StageClock();
     const std::string digest = write_frames(command, result, *source, output, context);
-    write_file_atomically(output.path("binding.json"),
-                          format_binding(result.quads, source->triangles()));
+    write_file_atomically(
+        output.path("binding.json"),
+        format_binding(result.quads, repaired ? repaired->input_triangles() : source->triangles()));
     output.replace_earlier("mirror.json");
     if (!result.quads.mirror.empty()) {
         write_file_atomically(output.path("mirror.json"), format_mirror(result.quads));
@@ -129,7 +162,8 @@ void run(const RunCommand& command, Session& session) {
         metrics = measure(result, *source, context);
         clock.finish_stage("metrics", result.times);
     }
-    const nlohmann::ordered_json record = make_run_record(result, *source, digest, metrics);
+    nlohmann::ordered_json record = make_run_record(result, *source, digest, metrics);
+    if (repaired) record["input"]["repaired"] = repaired->actions();
     const std::string text = record.dump(2) + "\n";
     write_file_atomically(output.path("run.json"), text);
     context.check_cancelled();
@@ -206,9 +240,15 @@ void add_run_command(CLI::App& program, Session& session) {
            "beside it, or a single mesh")
         ->required();
     app.add_option(
-           "-o,--output", command->output,
-           "Folder for the quad sequence, run.json and binding.json; made where it is absent")
-        ->required();
+        "-o,--output", command->output,
+        "Folder for the quad sequence, run.json and binding.json; made where it is absent");
+    app.add_flag("--check", command->check,
+                 "Only check the mesh: print what is wrong or remarkable, with element numbers (as "
+                 "JSON with --json)");
+    app.add_flag(
+        "--repair", command->repair,
+        "Mend what can be mended without a change of the surface: orientation, repeated and "
+        "flat triangles, vertices between several fans");
     add_method_options(app, *command);
     app.add_option(
            "--format", command->format,

@@ -7,6 +7,7 @@
 #include "kinequad/core/error.h"
 #include "kinequad/extract/integer_points.h"
 #include "kinequad/extract/require_extractable.h"
+#include "kinequad/extract/split_parallel_edges.h"
 #include "kinequad/extract/trace_port.h"
 
 namespace kinequad {
@@ -104,24 +105,50 @@ SurfacePoint locate(const GridMap& map, const IntegerPoint& point) {
     return {map.mesh.parent[to_index(t)], weights / weights.sum()};
 }
 
-}  // namespace
-
-QuadMesh extract_quads(const GridMap& map, const Context& context) {
-    context.report_progress("extract", 0);
+/// The cells of a map, every vertex with the number of its odd coordinates.
+Cells extract_cells(const GridMap& map, const Context& context) {
     const std::int64_t lines = require_extractable(map);
     // An integer line crosses a triangle, an edge and a vertex at most once for each line through
     // it.
     const std::int64_t step_limit = 3 * lines + 3;
     const IntegerPoints points = find_integer_points(map);
     const std::vector<int> opposite = link_ports(map, points, step_limit, context);
-    QuadMesh mesh;
-    mesh.Q = assemble_faces(map, points, opposite);
-    mesh.vertex.reserve(to_index(points.count()));
+    Cells cells;
+    cells.mesh.Q = assemble_faces(map, points, opposite);
+    cells.mesh.vertex.reserve(to_index(points.count()));
+    cells.edge_count = points.port.size() / 2;
+    cells.odd_coordinates.reserve(to_index(points.count()));
     for (int p = 0; p < points.count(); ++p) {
-        mesh.vertex.push_back(locate(map, points.point[to_index(p)]));
+        const IntegerPoint& point = points.point[to_index(p)];
+        cells.mesh.vertex.push_back(locate(map, point));
+        const auto is_odd = [](std::int64_t x) { return ((x >> GridMap::fraction_bits) & 1) != 0; };
+        cells.odd_coordinates.push_back(
+            static_cast<char>((is_odd(point.at.u) ? 1 : 0) + (is_odd(point.at.v) ? 1 : 0)));
+    }
+    return cells;
+}
+
+/// The map with two cells for one along both axes.
+GridMap doubled(GridMap map) {
+    for (Coordinate& corner : map.corner) corner = {2 * corner.u, 2 * corner.v};
+    for (GridMap::Transition& transition : map.transition) {
+        transition.translation = {2 * transition.translation.u, 2 * transition.translation.v};
+    }
+    return map;
+}
+
+}  // namespace
+
+QuadMesh extract_quads(const GridMap& map, const Context& context) {
+    context.report_progress("extract", 0);
+    Cells cells = extract_cells(map, context);
+    if (has_parallel_edges(cells)) {
+        context.write_log(LogLevel::info,
+                          "extract: edges join the same two vertices; splitting rows of quads");
+        cells.mesh = split_parallel_edges(extract_cells(doubled(map), context));
     }
     context.report_progress("extract", 1);
-    return mesh;
+    return std::move(cells.mesh);
 }
 
 }  // namespace kinequad

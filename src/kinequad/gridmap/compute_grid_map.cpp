@@ -4,22 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <numeric>
 
-#include "kinequad/core/error.h"
-#include "kinequad/gridmap/quantize.h"
-#include "kinequad/gridmap/refine_map.h"
-#include "kinequad/gridmap/relax_map.h"
-#include "kinequad/gridmap/seamless_map.h"
+#include "kinequad/gridmap/map_component.h"
+#include "kinequad/gridmap/map_components.h"
 
 namespace kinequad {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-constexpr int most_rounds = 4;
-constexpr int most_refinements = 12;
-constexpr int relaxing_steps = 8;
+/// Share of its quads that a part keeps at least where smaller parts took more than theirs.
+constexpr double least_share = 0.7;
 
 double boundary_length(const Topology& topology, const IntrinsicMetric& metric) {
     double sum = 0;
@@ -29,117 +23,20 @@ double boundary_length(const Topology& topology, const IntrinsicMetric& metric) 
     return sum;
 }
 
-/// The longest sides of `triangles` in the plane where their corners are `corners`. No two of the
-/// sides belong to one triangle, so that all can be split one after the other.
-std::vector<int> longest_sides(const ChartedMesh& mesh, const std::vector<Complex>& corners,
-                               const std::vector<int>& triangles) {
-    std::vector<int> chosen;
-    std::vector<char> is_taken(mesh.parent.size(), 0);
-    for (const int t : triangles) {
-        int longest = 3 * t;
-        for (int h = 3 * t; h < 3 * t + 3; ++h) {
-            const auto length = [&](int e) {
-                return std::abs(corners[at(Topology::next(e))] - corners[at(e)]);
-            };
-            if (length(h) > length(longest)) longest = h;
-        }
-        const int other = mesh.twin[at(longest)];
-        if (is_taken[at(t)] || (other >= 0 && is_taken[at(other / 3)])) continue;
-        is_taken[at(t)] = 1;
-        if (other >= 0) is_taken[at(other / 3)] = 1;
-        chosen.push_back(longest);
+/// Number of quads of a map: its area in cells.
+double count_quads(const GridMap& map) {
+    double area = 0;
+    for (std::size_t h = 0; h < map.corner.size(); h += 3) {
+        const auto cells = [](std::int64_t units) {
+            return std::ldexp(static_cast<double>(units), -GridMap::fraction_bits);
+        };
+        const double au = cells(map.corner[h + 1].u - map.corner[h].u);
+        const double av = cells(map.corner[h + 1].v - map.corner[h].v);
+        const double bu = cells(map.corner[h + 2].u - map.corner[h].u);
+        const double bv = cells(map.corner[h + 2].v - map.corner[h].v);
+        area += (au * bv - av * bu) / 2;
     }
-    return chosen;
-}
-
-std::vector<int> reversed_triangles(const std::vector<TargetShape>& shapes,
-                                    const std::vector<Complex>& corners) {
-    std::vector<int> reversed;
-    for (std::size_t t = 0; t < shapes.size(); ++t) {
-        if (!keeps_direction(shapes[t], &corners[3 * t])) reversed.push_back(static_cast<int>(t));
-    }
-    return reversed;
-}
-
-/// Turns the real coordinates of a map whose integers are reached into exact fixed-point numbers.
-GridMap fix_coordinates(const ChartedMesh& mesh, const MapVariables& variables,
-                        const std::vector<Complex>& corners) {
-    GridMap map;
-    map.mesh.F = mesh.triangles();
-    map.mesh.vertex_count = mesh.vertex_count;
-    map.mesh.parent = mesh.parent;
-    map.mesh.barycentric.resize(static_cast<Eigen::Index>(mesh.origin.size()), 3);
-    map.topology = build_topology(map.mesh.F, mesh.vertex_count);
-    map.corner.resize(mesh.origin.size());
-    map.transition.resize(mesh.origin.size());
-    map.index = Eigen::Map<const Eigen::VectorXi>(mesh.index.data(),
-                                                  static_cast<Eigen::Index>(mesh.index.size()));
-
-    const auto whole = [](double value) { return std::llround(value) * GridMap::one; };
-    const auto fraction = [](double value) {
-        return std::llround(std::ldexp(value, GridMap::fraction_bits));
-    };
-    for (std::size_t h = 0; h < mesh.origin.size(); ++h) {
-        map.mesh.barycentric.row(static_cast<Eigen::Index>(h)) = mesh.barycentric[h].transpose();
-        if (mesh.twin[h] < 0) continue;
-        const Complex shift =
-            corners[at(Topology::next(mesh.twin[h]))] - turn(corners[h], mesh.rotation[h]);
-        map.transition[h] = {mesh.rotation[h], {whole(shift.real()), whole(shift.imag())}};
-    }
-    const std::vector<int> first = mesh.first_half_edges();
-    for (int v = 0; v < mesh.vertex_count; ++v) {
-        const int start = first[at(v)];
-        if (start < 0) continue;
-        const Complex z = corners[at(start)];
-        GridMap::Coordinate here = {fraction(z.real()), fraction(z.imag())};
-        if (variables.is_node[at(v)]) {
-            here = {whole(z.real()), whole(z.imag())};
-        } else if (mesh.is_boundary[at(v)]) {
-            const Complex along = corners[at(Topology::next(start))] - z;
-            (std::abs(along.real()) > std::abs(along.imag()) ? here.v : here.u) =
-                std::abs(along.real()) > std::abs(along.imag()) ? whole(z.imag()) : whole(z.real());
-        }
-        for (int h = start; h >= 0;) {
-            map.corner[at(h)] = here;
-            const int in = Topology::previous(h);
-            here = map.transition[at(in)](here);
-            h = mesh.twin[at(in)];
-            if (h == start) break;
-        }
-    }
-    return map;
-}
-
-std::string describe(const GridMapReport& report) {
-    return fmt::format(
-        "{} flipped triangles, {} broken transitions, {} fractional translations, {} fractional "
-        "singularities, {} wrong cone angles, {} unaligned boundary edges",
-        report.flipped_triangles, report.broken_transitions, report.fractional_translations,
-        report.fractional_singularities, report.wrong_cone_angles, report.unaligned_boundary_edges);
-}
-
-/// Brings the map to the integers, refining the mesh where its triangles hold the map back, and
-/// relaxes it there. Nothing where refinement does not help.
-std::optional<Eigen::VectorXd> reach_integers(ChartedMesh& mesh, MapVariables& variables,
-                                              double scale, Eigen::VectorXd x,
-                                              const Eigen::VectorXd& goal, const Context& context) {
-    for (int round = 0; round < most_refinements; ++round) {
-        TriangleSystem system(variables);
-        const std::vector<TargetShape> shapes = target_shapes(mesh, scale);
-        Arrival arrival = bring_to_integers(variables, system, shapes, x, goal, context);
-        if (arrival.arrived)
-            return relax_map(variables, system, shapes, arrival.x, relaxing_steps, context);
-        const std::vector<int> sides =
-            longest_sides(mesh, variables.corner_coordinates(arrival.x), arrival.tight);
-        context.write_log(
-            LogLevel::info,
-            fmt::format("gridmap: {} triangles hold singularities back from the integer grid, "
-                        "refining",
-                        arrival.tight.size()));
-        if (sides.empty()) return std::nullopt;
-        x = refine_map(mesh, variables, std::move(arrival.x), sides);
-    }
-    return std::nullopt;
+    return area;
 }
 
 }  // namespace
@@ -160,56 +57,36 @@ GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric
     const double edge_length = options.edge_length > 0
                                    ? options.edge_length
                                    : edge_length_for(topology, metric, options.vertex_count);
-    const double quad_count = triangle_areas(topology, metric).sum() / (edge_length * edge_length);
-    ChartedMesh mesh = build_charts(topology, metric, field, edge_length);
-    separate_singularities(mesh);
-
-    std::string obstacle;
-    for (int round = 0; round < most_rounds; ++round) {
-        context.report_progress("grid map", static_cast<double>(round) / most_rounds);
-        const std::vector<char> nodes = find_nodes(mesh);
-        const CutGraph cut = cut_to_discs(mesh, nodes);
-        MapVariables variables = build_map_variables(mesh, cut, nodes);
-        TriangleSystem system(variables);
-        const std::vector<TargetShape> shapes = target_shapes(mesh, 1);
-        context.write_log(LogLevel::debug,
-                          fmt::format("gridmap: {} triangles, {} integer unknowns",
-                                      mesh.triangle_count(), variables.integer_count()));
-        const SeamlessMap seamless = solve_seamless_map(variables, system, shapes, context);
-        const std::vector<Complex> corners = variables.corner_coordinates(seamless.x);
-        if (seamless.reversed_triangles > 0) {
-            obstacle = fmt::format("{} triangles stay reversed in the seamless map",
-                                   seamless.reversed_triangles);
-            context.write_log(LogLevel::info, "gridmap: " + obstacle);
-            for (const int h :
-                 longest_sides(mesh, mesh.target, reversed_triangles(shapes, corners))) {
-                mesh.split_edge(h);
-            }
-            continue;
-        }
-        const ConeTriangulation cone(mesh, variables, corners, seamless.integers);
-        const Quantization whole =
-            quantize(cone, seamless.stiffness, seamless.best_integers, quad_count, context);
-        context.write_log(LogLevel::debug, fmt::format("gridmap: {} quads at scale {:.4f}",
-                                                       whole.quads, whole.scale));
-        const Eigen::VectorXd goal = variables.lattice * whole.integers;
-        std::optional<Eigen::VectorXd> x =
-            reach_integers(mesh, variables, whole.scale, whole.scale * seamless.x, goal, context);
-        if (!x) {
-            obstacle = "singularities are held back from the integer grid";
-            continue;
-        }
-        GridMap map = fix_coordinates(mesh, variables, variables.corner_coordinates(*x));
-        const GridMapReport report = verify_grid_map(map);
-        if (report.valid()) {
-            context.report_progress("grid map", 1);
-            return map;
-        }
-        obstacle = describe(report);
-        context.write_log(LogLevel::info, "gridmap: " + obstacle);
+    const ChartedMesh mesh = build_charts(topology, metric, field, edge_length);
+    const std::vector<MapComponent> components = split_components(mesh);
+    std::vector<std::size_t> order(components.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return components[a].area < components[b].area;
+    });
+    double wanted_left = 0;
+    for (const MapComponent& component : components) wanted_left += component.area;
+    double area_left = wanted_left;
+    const double wanted = wanted_left;
+    std::vector<GridMap> maps(components.size());
+    double made = 0;
+    // The smallest parts come first: what they take more than their share, larger ones give.
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const MapComponent& component = components[order[i]];
+        context.report_progress("grid map", (wanted - area_left) / wanted);
+        const double share = std::max(least_share, wanted_left / area_left) * component.area;
+        GridMap& map = maps[order[i]];
+        map = map_component(component.mesh, std::min(share, 1.1 * component.area), context);
+        const double quads = count_quads(map);
+        made += quads;
+        wanted_left -= quads;
+        area_left -= component.area;
     }
-    throw GridMapError("no valid grid map at this density: " + obstacle +
-                       "; ask for more vertices");
+    GridMap whole = join_maps(components, maps, topology.vertex_count);
+    whole.wanted_quads = wanted;
+    whole.quads = made;
+    context.report_progress("grid map", 1);
+    return whole;
 }
 
 }  // namespace kinequad

@@ -37,6 +37,8 @@ struct GridMap {
     std::vector<Transition> transition;  ///< 3m': of half-edge h, from its triangle's chart to the
                                          ///< chart across it; identity on the boundary
     Eigen::VectorXi index;               ///< n': singularity index in quarters
+    double wanted_quads = 0;             ///< number of quads that was asked for
+    double quads = 0;                    ///< number of quads, the area of the map in cells
 };
 
 /// The coordinate turned counter-clockwise by `quarters` quarter turns.

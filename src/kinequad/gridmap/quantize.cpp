@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -17,15 +18,17 @@ namespace {
 constexpr double wanted_room = 1.3;
 /// Length every edge between cones should keep, in cells; whole ones have at least 1.
 constexpr double wanted_distance = 1.2;
-constexpr double room_weight = 10;
+/// How often rounding may get stuck before a scale is given up.
+constexpr int most_attempts = 6;
 
 class Rounding {
 public:
     Rounding(ConeTriangulation cone, const Eigen::MatrixXd& stiffness, Eigen::VectorXd best,
-             const Context& context)
+             double room_weight, const Context& context)
         : cone_(std::move(cone)),
           stiffness_(stiffness),
           best_(std::move(best)),
+          room_weight_(room_weight),
           context_(context),
           is_fixed_(static_cast<std::size_t>(best_.size()), 0) {}
 
@@ -45,11 +48,11 @@ private:
         double sum = away.dot(stiffness_ * away);
         for (int i = 0; i < cone_.triangle_count(); ++i) {
             const double lack = wanted_room - cone_.determinant(i);
-            if (lack > 0) sum += room_weight * lack * lack;
+            if (lack > 0) sum += room_weight_ * lack * lack;
         }
         for (const int h : cone_.edges()) {
             const double lack = wanted_length(h) - cone_.edge_length(h);
-            if (lack > 0) sum += room_weight * lack * lack;
+            if (lack > 0) sum += room_weight_ * lack * lack;
         }
         return sum;
     }
@@ -73,16 +76,16 @@ private:
 
     /// Adds the square of `lack - gradient * step` to the normal equations over the unknowns that
     /// have a `place`.
-    static void add_residual(double lack, const LinearForm<double>& gradient,
-                             const std::vector<int>& place, Eigen::MatrixXd& matrix,
-                             Eigen::VectorXd& right) {
+    void add_residual(double lack, const LinearForm<double>& gradient,
+                      const std::vector<int>& place, Eigen::MatrixXd& matrix,
+                      Eigen::VectorXd& right) const {
         for (const auto& [i, gi] : gradient) {
             const int row = place[static_cast<std::size_t>(i)];
             if (row < 0) continue;
-            right[row] += room_weight * lack * gi;
+            right[row] += room_weight_ * lack * gi;
             for (const auto& [j, gj] : gradient) {
                 const int column = place[static_cast<std::size_t>(j)];
-                if (column >= 0 && column <= row) matrix(row, column) += room_weight * gi * gj;
+                if (column >= 0 && column <= row) matrix(row, column) += room_weight_ * gi * gj;
             }
         }
     }
@@ -133,21 +136,22 @@ private:
     }
 
     bool round_all() {
-        const auto count = best_.size();
-        Eigen::MatrixXd compliance =
-            stiffness_.llt().solve(Eigen::MatrixXd::Identity(count, count));
-        std::vector<char> deferred(static_cast<std::size_t>(count), 0);
+        Eigen::MatrixXd compliance = free_compliance();
+        std::vector<char> deferred(is_fixed_.size(), 0);
         int since_room = 0;
-        int patience = 3;
+        int attempt = 0;
         while (true) {
             context_.check_cancelled();
             const int i = easiest(compliance, deferred);
             if (i < 0) {
                 if (free_unknowns().empty()) return true;
-                // All that is left is blocked: make room anew and try again.
-                if (--patience < 0) return false;
+                // All that is left is blocked: make room anew, from the second time on with those
+                // around it, the farther the more often, and try again.
+                if (++attempt > most_attempts) return false;
+                release_around(attempt / 2);
                 std::fill(deferred.begin(), deferred.end(), 0);
                 make_room(30);
+                compliance = free_compliance();
                 continue;
             }
             if (!fix(i, compliance)) {
@@ -162,6 +166,33 @@ private:
                 make_room(3);
                 std::fill(deferred.begin(), deferred.end(), 0);
             }
+        }
+    }
+
+    /// How the unknowns that are not fixed give way, zero for the others.
+    Eigen::MatrixXd free_compliance() const {
+        const std::vector<int> free = free_unknowns();
+        const auto count = static_cast<Eigen::Index>(free.size());
+        Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(best_.size(), best_.size());
+        const Eigen::MatrixXd block = stiffness_(free, free);
+        const Eigen::MatrixXd inverse = block.llt().solve(Eigen::MatrixXd::Identity(count, count));
+        compliance(free, free) = inverse;
+        return compliance;
+    }
+
+    /// Frees the fixed unknowns that share a triangle of cones with a free one, `rings` times over.
+    void release_around(int rings) {
+        for (int ring = 0; ring < rings; ++ring) {
+            std::vector<char> is_fixed = is_fixed_;
+            for (int t = 0; t < cone_.triangle_count(); ++t) {
+                const LinearForm<double> form = cone_.determinant_gradient(t);
+                const bool is_near = std::any_of(form.begin(), form.end(), [&](const auto& term) {
+                    return is_fixed_[static_cast<std::size_t>(term.first)] == 0;
+                });
+                if (!is_near) continue;
+                for (const auto& term : form) is_fixed[static_cast<std::size_t>(term.first)] = 0;
+            }
+            is_fixed_ = std::move(is_fixed);
         }
     }
 
@@ -251,29 +282,36 @@ private:
     ConeTriangulation cone_;
     const Eigen::MatrixXd& stiffness_;
     Eigen::VectorXd best_;
+    double room_weight_;  ///< of the squares of lacking room against the energy
     const Context& context_;
     std::vector<char> is_fixed_;
 };
 
 }  // namespace
 
-Quantization quantize(const ConeTriangulation& cone, const Eigen::MatrixXd& stiffness,
-                      const Eigen::VectorXd& best, double quad_count, const Context& context) {
+std::optional<Quantization> quantize(const ConeTriangulation& cone,
+                                     const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& best,
+                                     double quad_count, const Context& context) {
     // Scales are tried around the one that should give the wanted count; where cones block each
-    // other at one, a slightly different one often works, and a much larger one nearly always.
-    constexpr std::array<double, 12> detours = {1,    1.01, 0.99, 1.02, 0.98, 1.03,
-                                                0.97, 1.1,  1.2,  1.4,  1.8,  2.5};
+    // other at one, a slightly different one often works, or room that counts more against shape.
+    struct Detour {
+        double scale;
+        double room_weight;
+    };
+    constexpr std::array<Detour, 8> detours = {
+        {{1, 10}, {1.01, 10}, {0.99, 10}, {1, 40}, {1.02, 40}, {0.98, 40}, {1, 150}, {1.1, 150}}};
     double centre = std::sqrt(quad_count / cone.area());
     std::size_t blocked = 0;
     std::optional<Quantization> closest;
     const auto miss = [&](const Quantization& q) { return std::abs(q.quads / quad_count - 1); };
     for (int attempt = 0; attempt < 16 && blocked < detours.size(); ++attempt) {
         // Once there is a result, far detours cannot bring a closer one.
-        if (closest && detours[blocked] > 1.05) break;
-        const double scale = centre * detours[blocked];
+        if (closest && detours[blocked].scale > 1.05) break;
+        const double scale = centre * detours[blocked].scale;
         ConeTriangulation scaled = cone;
         scaled.scale(scale);
-        Rounding rounding(std::move(scaled), stiffness, scale * best, context);
+        Rounding rounding(std::move(scaled), stiffness, scale * best, detours[blocked].room_weight,
+                          context);
         const std::optional<Eigen::VectorXd> integers = rounding.run();
         if (!integers) {
             context.write_log(
@@ -293,11 +331,7 @@ Quantization quantize(const ConeTriangulation& cone, const Eigen::MatrixXd& stif
             ++blocked;
         }
     }
-    if (!closest) {
-        throw GridMapError(
-            "the singularities find no room on the integer grid; ask for more vertices");
-    }
-    return *closest;
+    return closest;
 }
 
 }  // namespace kinequad

@@ -17,9 +17,10 @@ struct Quantization {
 
 /// Rounds the unknowns of `cone` (in the injective seamless map) so that the energy
 /// `(y - s best)^T stiffness (y - s best)` stays low and no cone runs into another, at the scale
-/// `s` that gives about `quad_count` quads. docs/gridmap.md, "Whole numbers". Throws `GridMapError`
-/// where no scale works.
-Quantization quantize(const ConeTriangulation& cone, const Eigen::MatrixXd& stiffness,
-                      const Eigen::VectorXd& best, double quad_count, const Context& context);
+/// `s` that gives about `quad_count` quads. docs/gridmap.md, "Whole numbers". Nothing where
+/// no scale near it works.
+std::optional<Quantization> quantize(const ConeTriangulation& cone,
+                                     const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& best,
+                                     double quad_count, const Context& context);
 
 }  // namespace kinequad

@@ -179,6 +179,20 @@ public:
     /// Triangles whose area vanishes first along the last direction.
     const std::vector<int>& tight() const { return tight_; }
 
+    /// Triangles that the map presses flat: to less than a tenth of their width.
+    std::vector<int> crushed(const Eigen::VectorXd& x) const {
+        const std::vector<Complex> corners = variables_.corner_coordinates(x);
+        std::vector<int> triangles;
+        for (std::size_t t = 0; t < shapes_.size(); ++t) {
+            if (std::abs(shapes_[t].conformal_part(&corners[3 * t])) -
+                    std::abs(shapes_[t].anticonformal_part(&corners[3 * t])) <
+                0.1) {
+                triangles.push_back(static_cast<int>(t));
+            }
+        }
+        return triangles;
+    }
+
     /// Whether every triangle keeps a positive area all the way from `x` to `end`: its end alone
     /// could hide a cone that has been turned once too often.
     bool can_go_straight(const Eigen::VectorXd& x, const Eigen::VectorXd& end) {
@@ -266,7 +280,11 @@ Arrival bring_to_integers(const MapVariables& variables, TriangleSystem& system,
     Arrival arrival;
     double weight = 0.5;
     int stalls = 0;
-    for (int i = 0; i < 40 && stalls < 4; ++i) {
+    // Where the way left no longer shrinks, more steps are of no use.
+    constexpr int patience = 7;
+    double shortest = std::numeric_limits<double>::infinity();
+    int since_shorter = 0;
+    for (int i = 0; i < 40 && stalls < 4 && since_shorter < patience; ++i) {
         newton.set_pull(weight, goal);
         const double length = newton.step(x);
         const double away = (newton.chain(x) - goal).cwiseAbs().maxCoeff();
@@ -281,11 +299,18 @@ Arrival bring_to_integers(const MapVariables& variables, TriangleSystem& system,
             arrival.arrived = true;
             return arrival;
         }
+        ++since_shorter;
+        if (away < 0.97 * shortest) {
+            shortest = away;
+            since_shorter = 0;
+        }
         if (length < 0.1) ++stalls;
         if (length > 0.3) weight = std::min(weight * 4, 1e6);
     }
     arrival.x = x;
     arrival.tight = newton.tight();
+    const std::vector<int> crushed = newton.crushed(x);
+    arrival.tight.insert(arrival.tight.end(), crushed.begin(), crushed.end());
     return arrival;
 }
 

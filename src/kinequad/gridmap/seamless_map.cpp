@@ -1,5 +1,7 @@
 #include "kinequad/gridmap/seamless_map.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
@@ -19,7 +21,11 @@ constexpr double steepness = 0.8;
 constexpr double margin = 0.1;
 constexpr double over_relaxation = 1.6;
 constexpr int most_weighted_rounds = 100;
-constexpr int most_plain_rounds = 500;
+constexpr int most_plain_rounds = 200;
+/// How often triangles that stay reversed get more weight, by how much, and the rounds each time.
+constexpr int most_reweightings = 5;
+constexpr double reweighting = 20;
+constexpr int most_reweighted_rounds = 100;
 
 /// What the imaginary parts of a and b count in a least-squares solve, against their real parts.
 struct PartWeights {
@@ -174,6 +180,20 @@ SeamlessMap solve_seamless_map(const MapVariables& variables, TriangleSystem& sy
         // Projections meet for certain where both are taken in one norm, the plain one.
         const LeastSquaresMap plain_squares(variables, system, shapes, plain);
         project(plain_squares, variables, shapes, most_plain_rounds, map, context);
+    }
+    // Small triangles among large ones have little say; projections meet in any weights.
+    std::vector<TargetShape> weighted_shapes = shapes;
+    for (int i = 0; i < most_reweightings && map.reversed_triangles > 0; ++i) {
+        const std::vector<Complex> corners = variables.corner_coordinates(map.x);
+        for (std::size_t t = 0; t < shapes.size(); ++t) {
+            if (!keeps_direction(shapes[t], &corners[3 * t]))
+                weighted_shapes[t].area *= reweighting;
+        }
+        const LeastSquaresMap reweighted(variables, system, weighted_shapes, plain);
+        project(reweighted, variables, weighted_shapes, most_reweighted_rounds, map, context);
+        context.write_log(LogLevel::debug,
+                          fmt::format("gridmap: {} triangles reversed after reweighting",
+                                      map.reversed_triangles));
     }
     map.integers = integers_of(map.x);
     return map;

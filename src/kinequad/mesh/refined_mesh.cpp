@@ -31,4 +31,16 @@ SurfacePoint point_of_input(const RefinedMesh& mesh, const SurfacePoint& point) 
     return {mesh.parent[static_cast<std::size_t>(point.triangle)], sum / sum.sum()};
 }
 
+RefinedMesh as_refinement_of_input(const RefinedMesh& outer, const RefinedMesh& inner) {
+    RefinedMesh mesh = inner;
+    for (Eigen::Index corner = 0; corner < inner.F.size(); ++corner) {
+        const auto t = static_cast<std::size_t>(corner / 3);
+        const SurfacePoint point =
+            point_of_input(outer, {inner.parent[t], inner.barycentric.row(corner).transpose()});
+        mesh.barycentric.row(corner) = point.barycentric.transpose();
+        mesh.parent[t] = point.triangle;
+    }
+    return mesh;
+}
+
 }  // namespace kinequad

@@ -27,4 +27,7 @@ std::vector<SurfacePoint> vertex_points(const RefinedMesh& mesh);
 /// A point of a refined mesh as a point of the input.
 SurfacePoint point_of_input(const RefinedMesh& mesh, const SurfacePoint& point);
 
+/// A refinement `inner` of the refined mesh `outer`, as a refinement of the input.
+RefinedMesh as_refinement_of_input(const RefinedMesh& outer, const RefinedMesh& inner);
+
 }  // namespace kinequad

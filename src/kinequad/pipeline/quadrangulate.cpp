@@ -13,6 +13,9 @@
 #include "kinequad/extract/verify_quad_mesh.h"
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/io/memory_sequence.h"
+#include "kinequad/mesh/widen_flat_triangles.h"
+#include "kinequad/pipeline/check_input.h"
+#include "kinequad/pipeline/refine_coarse_input.h"
 #include "kinequad/pipeline/solve_quads.h"
 #include "kinequad/relax/relax_quads.h"
 #include "kinequad/symmetry/even_out_half.h"
@@ -20,15 +23,6 @@
 
 namespace kinequad {
 namespace {
-
-Topology checked_topology(const FrameSource& source) {
-    try {
-        require(source.triangles().rows() > 0, InputFault::mesh, "has no faces; nothing to do");
-        return build_topology(source.triangles(), source.vertex_count());
-    } catch (const InputError& error) {
-        throw InputError(error.fault(), fmt::format("{}: {}", source.name(), error.what()));
-    }
-}
 
 Positions read_reference_frame(const FrameSource& source, int reference) {
     return reference == Options::rest_shape ? source.read_rest_shape()
@@ -39,9 +33,9 @@ Positions read_reference_frame(const FrameSource& source, int reference) {
 IntrinsicMetric choose_metric(const FrameSource& frames, const Topology& topology,
                               const Positions& reference, const Options& options,
                               const Context& context) {
-    return options.metric == MetricChoice::reference
-               ? metric_of(topology, reference)
-               : compute_mean_metric(frames, topology, context);
+    return widen_flat_triangles(topology, options.metric == MetricChoice::reference
+                                              ? metric_of(topology, reference)
+                                              : compute_mean_metric(frames, topology, context));
 }
 
 /// Every component needs area, or no quad can lie on it.
@@ -78,26 +72,27 @@ std::vector<Positions> matching_shapes(const FrameSource& frames, const Position
 }
 
 /// The quads of both sides, from those of the half.
-QuadMesh mirror_quads(const FrameSource& frames, const IntrinsicMetric& metric,
+QuadMesh mirror_quads(const FrameSource& frames, const Topology& topology,
+                      const IntrinsicMetric& metric, const Positions& reference,
                       const Result& result, const QuadMesh& half, const Context& context) {
     const SymmetricHalf& surface = result.domain.surface;
     const std::vector<SurfacePoint> mirrored =
-        mirror_points(surface, result.topology, metric, frames.triangles(),
-                      matching_shapes(frames, result.reference), half.vertex, context);
-    QuadMesh on_input{half.Q, {}, {}};
+        mirror_points(surface, topology, metric, frames.triangles(),
+                      matching_shapes(frames, reference), half.vertex, context);
+    QuadMesh on_whole{half.Q, {}, {}};
     for (const SurfacePoint& point : half.vertex) {
-        on_input.vertex.push_back(point_of_input(surface.mesh, point));
+        on_whole.vertex.push_back(point_of_input(surface.mesh, point));
     }
     const std::vector<char> is_on_curve = curve_vertices(half, result.domain);
-    QuadMesh whole = join_mirrored_quads(on_input, mirrored, is_on_curve);
+    QuadMesh whole = join_mirrored_quads(on_whole, mirrored, is_on_curve);
     if (result.options.relax_rounds > 0) {
         // Where the surface is finer than the map is straight, mirrored quads can still fold.
         RelaxOptions options;
         options.rounds = 0;
         options.pinned.assign(whole.vertex.size(), 0);
         std::fill_n(options.pinned.begin(), half.vertex.size(), 1);
-        whole.vertex = relax_quads(whole, {{frames, result.reference}}, result.topology,
-                                   metric_of(result.topology, result.reference), options, context)
+        whole.vertex = relax_quads(whole, {{frames, reference}}, topology,
+                                   metric_of(topology, reference), options, context)
                            .vertex;
     }
     const MirrorReport report = verify_mirror(whole);
@@ -108,6 +103,37 @@ QuadMesh mirror_quads(const FrameSource& frames, const IntrinsicMetric& metric,
             report.broken_vertices, report.broken_quads, report.loose_fixed_vertices));
     }
     return whole;
+}
+
+/// Says where the wanted number of vertices was missed, and why.
+void note_density(Result& result, const Context& context) {
+    constexpr double allowed = 0.1;
+    const double wanted =
+        result.options.edge_length > 0 ? result.map.wanted_quads : result.options.vertices;
+    const double made = result.options.edge_length > 0
+                            ? result.map.quads
+                            : static_cast<double>(result.quads.vertex.size());
+    if (std::abs(made / wanted - 1) <= allowed) return;
+    const SurfaceCounts counts = count_surface(result.topology);
+    const auto singular = (result.field.index.array() != 0).count();
+    result.notes.push_back(fmt::format(
+        "{:.0f} {} instead of {:.0f}: {} singularities and corners on {} parts with {} boundary "
+        "loops {}",
+        made, result.options.edge_length > 0 ? "quads" : "vertices", wanted, singular,
+        counts.components, counts.boundary_loops,
+        made > wanted ? "need as many" : "leave no closer number"));
+    context.write_log(LogLevel::warning, result.notes.back());
+}
+
+/// Takes quads and domain from the refined mesh to the input.
+void put_on_input(Result& result) {
+    if (!result.refined) return;
+    for (SurfacePoint& point : result.quads.vertex) point = point_of_input(*result.refined, point);
+    SymmetricHalf& surface = result.domain.surface;
+    for (SurfacePoint& point : surface.mirrored) {
+        if (point.triangle >= 0) point = point_of_input(*result.refined, point);
+    }
+    surface.mesh = as_refinement_of_input(*result.refined, surface.mesh);
 }
 
 }  // namespace
@@ -123,50 +149,62 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
 
     result.options = resolve_options(options, source.frame_count(), source.has_rest_shape(),
                                      landmarks.has_value());
-    result.topology = checked_topology(source);
     result.reference = read_reference_frame(source, result.options.reference);
+    require_valid_input(source, result.reference, context);
+    result.topology = build_topology(source.triangles(), source.vertex_count());
+    result.refined =
+        refine_coarse_input(result.topology, result.reference, result.options, context);
     finish_stage("check");
+
+    // From here on the surface is the refined one, up to the finished quads.
+    std::optional<CarriedSequence> finer;
+    if (result.refined) finer.emplace(source, result.refined->F, vertex_points(*result.refined));
+    const FrameSource& surface = finer ? static_cast<const FrameSource&>(*finer) : source;
+    const Positions reference = finer ? finer->carry(result.reference) : result.reference;
+    const Topology topology =
+        finer ? build_topology(surface.triangles(), surface.vertex_count()) : result.topology;
 
     // A run on a single pose sees the reference as if it were the whole sequence.
     std::optional<MemorySequence> pose;
     if (is_single_pose(result.options)) {
-        pose.emplace(source.triangles(), std::vector<Positions>{result.reference}, std::nullopt,
-                     source.name());
+        pose.emplace(surface.triangles(), std::vector<Positions>{reference}, std::nullopt,
+                     surface.name());
     }
-    const FrameSource& frames = pose ? *pose : source;
+    const FrameSource& frames = pose ? *pose : surface;
     const IntrinsicMetric metric =
-        choose_metric(frames, result.topology, result.reference, result.options, context);
-    check_areas(source, result.topology, metric);
-    result.edge_length =
-        result.options.edge_length > 0
-            ? result.options.edge_length
-            : edge_length_for(result.topology, metric, result.options.vertices);
-    result.domain.surface.mesh = as_refined_mesh(source.triangles(), source.vertex_count());
-    result.domain.surface.is_on_curve.assign(static_cast<std::size_t>(source.vertex_count()), 0);
-    result.domain.topology = result.topology;
+        choose_metric(frames, topology, reference, result.options, context);
+    check_areas(source, topology, metric);
+    result.edge_length = result.options.edge_length > 0
+                             ? result.options.edge_length
+                             : edge_length_for(topology, metric, result.options.vertices);
+    result.domain.surface.mesh = as_refined_mesh(surface.triangles(), surface.vertex_count());
+    result.domain.surface.is_on_curve.assign(static_cast<std::size_t>(surface.vertex_count()), 0);
+    result.domain.topology = topology;
     result.domain.metric = metric;
     finish_stage("metric");
 
     if (result.options.symmetry == SymmetryMode::none) {
-        result.quads = solve_quads({{frames, result.reference, metric}}, result, context, finish_stage);
+        result.quads = solve_quads({{frames, reference, metric}}, result, context, finish_stage);
+        put_on_input(result);
+        note_density(result, context);
         finish_stage("relaxation");
         return result;
     }
 
-    result.symmetry = find_symmetry(frames, metric, landmarks, result.reference, context);
+    result.symmetry = find_symmetry(frames, metric, landmarks, reference, context);
     SymmetricHalf& half = result.domain.surface;
-    half = take_symmetric_half(result.topology, metric, result.symmetry->map, result.reference,
-                               source.triangles());
+    half =
+        take_symmetric_half(topology, metric, result.symmetry->map, reference, surface.triangles());
     result.domain.topology = build_topology(half.mesh.F, half.mesh.vertex_count);
     const CarriedSequence near(frames, half.mesh.F, vertex_points(half.mesh));
     half.mirrored = even_out_half(
-        half, choose_metric(near, result.domain.topology, near.carry(result.reference),
-                            result.options, context),
-        result.topology, metric, largest_evening_rounds, context);
+        half,
+        choose_metric(near, result.domain.topology, near.carry(reference), result.options, context),
+        topology, metric, largest_evening_rounds, context);
     const CarriedSequence far(frames, half.mesh.F, half.mirrored, true);
     std::vector<DomainView> views;
     for (const CarriedSequence* side : {&near, &far}) {
-        Positions pose = side->carry(result.reference);
+        Positions pose = side->carry(reference);
         IntrinsicMetric lengths =
             choose_metric(*side, result.domain.topology, pose, result.options, context);
         views.push_back({*side, std::move(pose), std::move(lengths)});
@@ -176,7 +214,9 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     finish_stage("symmetry");
 
     const QuadMesh quads = solve_quads(views, result, context, finish_stage);
-    result.quads = mirror_quads(frames, metric, result, quads, context);
+    result.quads = mirror_quads(frames, topology, metric, reference, result, quads, context);
+    put_on_input(result);
+    note_density(result, context);
     require_valid(verify_quad_mesh(result.quads, result.topology));
     finish_stage("relaxation");
     return result;

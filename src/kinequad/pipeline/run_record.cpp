@@ -120,6 +120,7 @@ nlohmann::ordered_json make_run_record(const Result& result, const FrameSource& 
     record["field"] = field_record(result);
     record["map"] = map_record(result);
     record["quads"] = {{"vertices", result.quads.vertex.size()}, {"quads", result.quads.Q.rows()}};
+    record["notes"] = result.notes;
     record["stages"] = stages_record(result.times);
     record["total"] = total_record(result.times);
     record["metrics"] = metrics ? Json(to_json(*metrics)) : Json();

@@ -49,8 +49,8 @@ CrossField make_cross_field(const Result& result, const Positions& reference,
     target_options.alpha = *result.options.alpha;
     target_options.curvature_weight = result.options.curvature;
     target_options.edge_length = result.edge_length;
-    const CrossFieldTargets targets =
-        compute_cross_field_targets(result.domain.topology, result.domain.metric, result.tensors, target_options);
+    const CrossFieldTargets targets = compute_cross_field_targets(
+        result.domain.topology, result.domain.metric, result.tensors, target_options);
     CrossFieldOptions options;
     options.method = result.options.field;
     options.singularity_cost = result.options.singularity_cost;
@@ -60,9 +60,10 @@ CrossField make_cross_field(const Result& result, const Positions& reference,
         options.feature_edges =
             find_feature_edges(result.domain.topology, reference, result.options.feature_angle);
     }
-    CrossField field =
-        compute_cross_field(result.domain.topology, result.domain.metric, targets, options, context);
-    require_valid_field(verify_cross_field(result.domain.topology, result.domain.metric, field, options));
+    CrossField field = compute_cross_field(result.domain.topology, result.domain.metric, targets,
+                                           options, context);
+    require_valid_field(
+        verify_cross_field(result.domain.topology, result.domain.metric, field, options));
     return field;
 }
 
@@ -92,6 +93,39 @@ QuadMesh separate_from_curve(QuadMesh quads, const Domain& domain,
         });
 }
 
+/// The map and its quads. Where the quads come out too coarse for the surface, such as two edges
+/// between the same two vertices, both are made again with shorter edges.
+QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
+                         const Context& context,
+                         const std::function<void(const char* stage)>& finish_stage) {
+    constexpr int most_attempts = 5;
+    constexpr double shortening = 0.8;
+    const Domain& domain = result.domain;
+    GridMapOptions options;
+    options.edge_length = result.edge_length;
+    for (int attempt = 1;; ++attempt) {
+        try {
+            result.map =
+                compute_grid_map(domain.topology, domain.metric, result.field, options, context);
+            require_valid_map(result.map);
+            finish_stage("map");
+            QuadMesh quads = extract_quads(result.map, context);
+            if (domain.is_half()) quads = separate_from_curve(std::move(quads), domain, views);
+            require_valid(verify_quad_mesh(quads, domain.topology));
+            return quads;
+        } catch (const Error& error) {
+            const bool can_be_denser = error.code() == ExitCode::no_grid_map ||
+                                       error.code() == ExitCode::verification_failed;
+            if (!can_be_denser || attempt == most_attempts) throw;
+            options.edge_length *= shortening;
+            result.notes.push_back(fmt::format("edges of {:.4g} instead of {:.4g}: {}",
+                                               options.edge_length, result.edge_length,
+                                               error.what()));
+            context.write_log(LogLevel::warning, "gridmap: " + result.notes.back());
+        }
+    }
+}
+
 }  // namespace
 
 QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const Context& context,
@@ -103,31 +137,21 @@ QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const
     result.field = make_cross_field(result, views.front().reference, context);
     finish_stage("field");
 
-    GridMapOptions map_options;
-    map_options.edge_length = result.edge_length;
-    result.map =
-        compute_grid_map(domain.topology, domain.metric, result.field, map_options, context);
-    require_valid_map(result.map);
-    finish_stage("map");
-
-    QuadMesh quads = extract_quads(result.map, context);
-    if (domain.is_half()) quads = separate_from_curve(std::move(quads), domain, views);
-    require_valid(verify_quad_mesh(quads, domain.topology));
+    QuadMesh quads = map_and_extract(views, result, context, finish_stage);
     finish_stage("extraction");
 
     if (result.options.relax_rounds > 0) {
         RelaxOptions relax_options;
         relax_options.rounds = result.options.relax_rounds;
         const bool is_frame = result.options.reference != Options::rest_shape;
-        relax_options.reference_frame =
-            is_single_pose(result.options) ? std::optional<int>(0)
-            : is_frame                     ? std::optional<int>(result.options.reference)
-                                           : std::nullopt;
+        relax_options.reference_frame = is_single_pose(result.options) ? std::optional<int>(0)
+                                        : is_frame ? std::optional<int>(result.options.reference)
+                                                   : std::nullopt;
         if (domain.is_half()) relax_options.sliding_edges = domain.curve_edges();
         std::vector<RelaxView> relax_views;
         for (const DomainView& view : views) relax_views.push_back({view.frames, view.reference});
-        quads = relax_quads(quads, relax_views, domain.topology, domain.metric, relax_options,
-                            context);
+        quads =
+            relax_quads(quads, relax_views, domain.topology, domain.metric, relax_options, context);
         require_valid(verify_quad_mesh(quads, domain.topology));
     }
     return quads;

@@ -1,0 +1,211 @@
+#include "kinequad/extract/split_parallel_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include "kinequad/core/error.h"
+
+namespace kinequad::extraction {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A wanted quad: its corners, the middles of its edges (k from corner k to k + 1), its centre.
+struct Cell {
+    std::array<int, 4> corner;
+    std::array<int, 4> middle;
+    int centre;
+};
+
+/// Puts the four quads around every centre together.
+std::vector<Cell> gather(const Cells& doubled) {
+    struct Quarter {
+        int corner = -1;
+        int after = -1;   ///< middle of the edge that leaves the corner
+        int before = -1;  ///< middle of the edge that arrives there
+    };
+    std::map<int, std::vector<Quarter>> around;
+    const Quads& Q = doubled.mesh.Q;
+    for (Eigen::Index q = 0; q < Q.rows(); ++q) {
+        for (int k = 0; k < 4; ++k) {
+            if (doubled.odd_coordinates[at(Q(q, k))] != 0) continue;
+            around[Q(q, (k + 2) % 4)].push_back({Q(q, k), Q(q, (k + 1) % 4), Q(q, (k + 3) % 4)});
+        }
+    }
+    std::vector<Cell> cells;
+    for (const auto& [centre, quarters] : around) {
+        if (quarters.size() != 4) return {};
+        Cell cell{{}, {}, centre};
+        std::size_t i = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            cell.corner[k] = quarters[i].corner;
+            cell.middle[k] = quarters[i].after;
+            std::size_t next = 0;
+            while (next < 4 && quarters[next].before != quarters[i].after) ++next;
+            if (next == 4) return {};
+            i = next;
+        }
+        if (i != 0) return {};
+        cells.push_back(cell);
+    }
+    return cells;
+}
+
+class Splitting {
+public:
+    explicit Splitting(const Cells& doubled)
+        : doubled_(doubled), cells_(gather(doubled)), row_(doubled.mesh.vertex.size()) {
+        for (std::size_t v = 0; v < row_.size(); ++v) row_[v] = static_cast<int>(v);
+        for (const Cell& cell : cells_) {
+            for (const std::size_t k : {0U, 1U}) {
+                const auto [low, high] =
+                    std::minmax({root(cell.middle[k]), root(cell.middle[k + 2])});
+                row_[at(high)] = low;
+            }
+        }
+        size_.assign(row_.size(), 0);
+        for (const Cell& cell : cells_) {
+            for (const int middle : cell.middle) ++size_[at(root(middle))];
+        }
+        is_split_.assign(row_.size(), 0);
+    }
+
+    bool is_possible() const {
+        return 4 * cells_.size() == static_cast<std::size_t>(doubled_.mesh.Q.rows());
+    }
+
+    QuadMesh run() {
+        while (split_one_more()) {
+        }
+        return assemble();
+    }
+
+private:
+    int root(int middle) {
+        while (row_[at(middle)] != middle) middle = row_[at(middle)] = row_[at(row_[at(middle)])];
+        return middle;
+    }
+
+    /// An edge that stands for itself: whole, or inside a quad that is split.
+    struct Edge {
+        std::pair<int, int> ends;
+        int name;  ///< its middle
+        int row;   ///< that crosses it
+        auto key() const { return std::pair(ends, name); }
+    };
+
+    /// Splits the shortest row that crosses one of several edges between the same two vertices.
+    bool split_one_more() {
+        std::vector<Edge> edges;
+        for (const Cell& cell : cells_) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const int row = root(cell.middle[k]);
+                if (is_split_[at(row)] != 0) continue;
+                edges.push_back(
+                    {std::minmax({cell.corner[k], cell.corner[(k + 1) % 4]}), cell.middle[k], row});
+            }
+            for (const std::size_t k : {0U, 1U}) {
+                const int across = root(cell.middle[k + 1]);
+                if (is_split_[at(root(cell.middle[k]))] == 0 || is_split_[at(across)] != 0)
+                    continue;
+                edges.push_back(
+                    {std::minmax({cell.middle[k], cell.middle[k + 2]}), cell.centre, across});
+            }
+        }
+        std::sort(edges.begin(), edges.end(),
+                  [](const Edge& a, const Edge& b) { return a.key() < b.key(); });
+        int chosen = -1;
+        for (std::size_t i = 1; i < edges.size(); ++i) {
+            const bool is_loop = edges[i].ends.first == edges[i].ends.second;
+            const bool is_parallel =
+                edges[i].ends == edges[i - 1].ends && edges[i].name != edges[i - 1].name;
+            if (!is_loop && !is_parallel) continue;
+            for (const int row : {edges[i - 1].row, edges[i].row}) {
+                if (is_loop && row != edges[i].row) continue;
+                const bool is_shorter = chosen < 0 || size_[at(row)] < size_[at(chosen)] ||
+                                        (size_[at(row)] == size_[at(chosen)] && row < chosen);
+                if (is_shorter) chosen = row;
+            }
+        }
+        if (chosen < 0) return false;
+        is_split_[at(chosen)] = 1;
+        return true;
+    }
+
+    QuadMesh assemble() {
+        std::vector<std::array<int, 4>> quads;
+        for (const Cell& cell : cells_) {
+            const auto& v = cell.corner;
+            const auto& m = cell.middle;
+            const bool first = is_split_[at(root(m[0]))] != 0;
+            const bool second = is_split_[at(root(m[1]))] != 0;
+            if (first && second) {
+                for (std::size_t k = 0; k < 4; ++k) {
+                    quads.push_back({v[k], m[k], cell.centre, m[(k + 3) % 4]});
+                }
+            } else if (first) {
+                quads.push_back({v[0], m[0], m[2], v[3]});
+                quads.push_back({m[0], v[1], v[2], m[2]});
+            } else if (second) {
+                quads.push_back({v[0], v[1], m[1], m[3]});
+                quads.push_back({m[3], m[1], v[2], v[3]});
+            } else {
+                quads.push_back(v);
+            }
+        }
+        QuadMesh mesh;
+        std::vector<int> number(doubled_.mesh.vertex.size(), -1);
+        for (const auto& quad : quads) {
+            for (const int vertex : quad) number[at(vertex)] = 0;
+        }
+        for (std::size_t v = 0; v < number.size(); ++v) {
+            if (number[v] < 0) continue;
+            number[v] = static_cast<int>(mesh.vertex.size());
+            mesh.vertex.push_back(doubled_.mesh.vertex[v]);
+        }
+        mesh.Q.resize(static_cast<Eigen::Index>(quads.size()), 4);
+        for (std::size_t q = 0; q < quads.size(); ++q) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                mesh.Q(static_cast<Eigen::Index>(q), static_cast<Eigen::Index>(k)) =
+                    number[at(quads[q][k])];
+            }
+        }
+        return mesh;
+    }
+
+    const Cells& doubled_;
+    std::vector<Cell> cells_;
+    std::vector<int> row_;
+    std::vector<int> size_;
+    std::vector<char> is_split_;
+};
+
+}  // namespace
+
+bool has_parallel_edges(const Cells& cells) {
+    const Quads& Q = cells.mesh.Q;
+    std::vector<std::pair<int, int>> edges;
+    edges.reserve(static_cast<std::size_t>(Q.size()));
+    for (Eigen::Index q = 0; q < Q.rows(); ++q) {
+        for (int k = 0; k < 4; ++k) {
+            edges.push_back(std::minmax({Q(q, k), Q(q, (k + 1) % 4)}));
+            if (edges.back().first == edges.back().second) return true;
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    const auto distinct = std::unique(edges.begin(), edges.end()) - edges.begin();
+    return static_cast<std::size_t>(distinct) < cells.edge_count;
+}
+
+QuadMesh split_parallel_edges(const Cells& doubled) {
+    Splitting splitting(doubled);
+    if (!splitting.is_possible()) {
+        throw VerificationError("a quad borders on itself; ask for more quads");
+    }
+    return splitting.run();
+}
+
+}  // namespace kinequad::extraction

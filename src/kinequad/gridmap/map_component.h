@@ -1,0 +1,14 @@
+#pragma once
+
+#include "kinequad/core/context.h"
+#include "kinequad/gridmap/charted_mesh.h"
+#include "kinequad/gridmap/grid_map.h"
+
+namespace kinequad {
+
+/// Computes the integer-grid map of a connected charted mesh with about `quad_count` quads. Where
+/// none is found with as many, it is sought with more. Throws `GridMapError` where that does not
+/// help either; `Cancelled`. docs/gridmap.md
+GridMap map_component(ChartedMesh mesh, double quad_count, const Context& context);
+
+}  // namespace kinequad

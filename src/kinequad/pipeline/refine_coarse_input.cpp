@@ -1,0 +1,36 @@
+#include "kinequad/pipeline/refine_coarse_input.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "kinequad/gridmap/compute_grid_map.h"
+#include "kinequad/mesh/refine_long_edges.h"
+
+namespace kinequad {
+namespace {
+
+/// Length of the longest edge that is left, in quad edges.
+const double longest_edge = std::getenv("KQ_LONGEST") ? std::atof(std::getenv("KQ_LONGEST")) : 2;
+
+}  // namespace
+
+std::optional<RefinedMesh> refine_coarse_input(const Topology& topology, const Positions& V,
+                                               const Options& options, const Context& context) {
+    const IntrinsicMetric metric = metric_of(topology, V);
+    const double quad_edge = options.edge_length > 0
+                                 ? options.edge_length
+                                 : edge_length_for(topology, metric, options.vertices);
+    if (!(quad_edge > 0)) return std::nullopt;
+    RefineOptions refine_options;
+    refine_options.longest_edge = longest_edge * quad_edge;
+    RefinedMesh refined = refine_long_edges(topology, metric, refine_options, context);
+    if (refined.F.rows() == topology.triangle_count) return std::nullopt;
+    context.write_log(LogLevel::info,
+                      fmt::format("check: the mesh is coarse against the quads; refined from {} to "
+                                  "{} triangles",
+                                  topology.triangle_count, refined.F.rows()));
+    return refined;
+}
+
+}  // namespace kinequad

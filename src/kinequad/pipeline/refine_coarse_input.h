@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "kinequad/core/context.h"
+#include "kinequad/mesh/refined_mesh.h"
+#include "kinequad/mesh/topology.h"
+#include "kinequad/pipeline/options.h"
+
+namespace kinequad {
+
+/// A refinement of the mesh `topology` in the pose `V` (n x 3) where it is too coarse to carry the
+/// quads that `options` ask for: its edges are long against those of the quads, or a part of it has
+/// few triangles. Nothing where it is fine enough. docs/robustness.md, "Coarse input"
+std::optional<RefinedMesh> refine_coarse_input(const Topology& topology, const Positions& V,
+                                               const Options& options, const Context& context);
+
+}  // namespace kinequad

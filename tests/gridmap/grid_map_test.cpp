@@ -52,7 +52,7 @@ void expect_faults(const GridMap& map, const Faults& expected) {
     EXPECT_EQ(report.fractional_translations, expected.fractional_translations);
     EXPECT_EQ(report.fractional_singularities, expected.fractional_singularities);
     EXPECT_EQ(report.wrong_cone_angles, expected.cones);
-    EXPECT_EQ(report.unaligned_boundary_edges, expected.unaligned);
+    EXPECT_EQ(report.unaligned_edges, expected.unaligned);
     EXPECT_FALSE(report.valid());
 }
 

@@ -37,6 +37,10 @@ int halve_triangle(ChartedMesh& mesh, int h, double fraction, int w) {
     mesh.rotation.resize(corners, 0);
     mesh.target.resize(corners);
     mesh.barycentric.resize(corners);
+    mesh.is_line.resize(corners, 0);
+    mesh.is_line[at(fresh)] = mesh.is_line[at(h)];
+    mesh.is_line[at(fresh + 1)] = mesh.is_line[at(n)];
+    mesh.is_line[at(n)] = 0;
 
     copy_corner(mesh, at(n), at(fresh + 1));
     copy_corner(mesh, at(p), at(fresh + 2));
@@ -72,8 +76,9 @@ int ChartedMesh::split_edge(int half_edge, double fraction) {
 std::vector<int> ChartedMesh::first_half_edges() const {
     std::vector<int> first(at(vertex_count), -1);
     for (std::size_t h = 0; h < origin.size(); ++h) {
+        const auto rank = [&](std::size_t e) { return twin[e] < 0 ? 2 : is_line[e] ? 1 : 0; };
         int& chosen = first[at(origin[h])];
-        if (chosen < 0 || (twin[h] < 0 && twin[at(chosen)] >= 0)) chosen = static_cast<int>(h);
+        if (chosen < 0 || rank(h) > rank(at(chosen))) chosen = static_cast<int>(h);
     }
     return first;
 }
@@ -85,7 +90,8 @@ Triangles ChartedMesh::triangles() const {
 }
 
 ChartedMesh build_charts(const Topology& topology, const IntrinsicMetric& metric,
-                         const CrossField& field, double edge_length) {
+                         const CrossField& field, double edge_length,
+                         const std::vector<int>& line_edges) {
     ChartedMesh mesh;
     const std::size_t corners = topology.origin.size();
     mesh.vertex_count = topology.vertex_count;
@@ -94,6 +100,12 @@ ChartedMesh build_charts(const Topology& topology, const IntrinsicMetric& metric
     mesh.rotation.assign(corners, 0);
     mesh.target.resize(corners);
     mesh.barycentric.resize(corners);
+    mesh.is_line.assign(corners, 0);
+    for (const int e : line_edges) {
+        const int h = topology.edge_half_edge[at(e)];
+        const int other = topology.twin[at(h)];
+        if (other >= 0) mesh.is_line[at(h)] = mesh.is_line[at(other)] = 1;
+    }
     mesh.parent.resize(at(topology.triangle_count));
     mesh.index.assign(field.index.data(), field.index.data() + field.index.size());
     mesh.is_boundary.resize(at(topology.vertex_count));
@@ -125,8 +137,8 @@ int separate_singularities(ChartedMesh& mesh) {
         const int a = mesh.origin[h];
         const int b = mesh.origin[at(Topology::next(static_cast<int>(h)))];
         const bool between = mesh.index[at(a)] != 0 && mesh.index[at(b)] != 0;
-        // A boundary edge stays whole: its two ends cannot drift apart sideways.
-        if (!between || mesh.twin[h] < 0) continue;
+        // An edge of a line stays whole: its two ends cannot drift apart sideways.
+        if (!between || mesh.twin[h] < 0 || mesh.is_line[h]) continue;
         mesh.split_edge(static_cast<int>(h));
         ++splits;
     }

@@ -19,6 +19,8 @@ struct ChartedMesh {
     std::vector<int> twin;      ///< 3m: half-edge across, -1 on the boundary
     std::vector<int> rotation;  ///< 3m: quarter turns from this triangle's chart to the one across
     std::vector<Complex> target;       ///< 3m: corner in the chart of its triangle, in cells
+    std::vector<char> is_line;  ///< 3m: nonzero on both half-edges of an edge inside the surface
+                                ///< that has to lie on an integer line
     std::vector<int> parent;           ///< m: input triangle
     std::vector<Vector3> barycentric;  ///< 3m: corner in the parent's barycentric coordinates
     std::vector<int> index;            ///< n: singularity index in quarters
@@ -28,15 +30,18 @@ struct ChartedMesh {
     /// Inserts a vertex at `fraction` of half-edge `half_edge` (0 at its origin) and returns it.
     /// The triangles on both sides are cut in two; half-edge numbers of all other triangles stay.
     int split_edge(int half_edge, double fraction = 0.5);
-    /// Half-edges that leave every vertex, one a vertex: the boundary one first where there is one.
+    /// Half-edges that leave every vertex, one a vertex: the boundary one where there is one, else
+    /// one on a line, else any.
     std::vector<int> first_half_edges() const;
     /// The triangles (m x 3).
     Triangles triangles() const;
 };
 
-/// Lays the charts out along the crosses of `field`, one cell being `edge_length` long.
+/// Lays the charts out along the crosses of `field`, one cell being `edge_length` long. The edges
+/// `line_edges` inside the surface have to lie on integer lines, as its boundary does.
 ChartedMesh build_charts(const Topology& topology, const IntrinsicMetric& metric,
-                         const CrossField& field, double edge_length);
+                         const CrossField& field, double edge_length,
+                         const std::vector<int>& line_edges = {});
 
 /// Splits every edge that joins two singular vertices, and every triangle with three, until there
 /// is none: the map could not pass a third singularity between two that an edge ties together.

@@ -14,8 +14,9 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-void ConeTriangulation::take_out_vertices(const MapVariables& variables, int vertex_count) {
-    std::vector<int> outgoing(at(vertex_count), -1);
+void ConeTriangulation::take_out_vertices(const std::vector<char>& is_node) {
+    const int vertex_count = static_cast<int>(is_node.size());
+    std::vector<int> outgoing(is_node.size(), -1);
     const auto refresh = [&] {
         std::fill(outgoing.begin(), outgoing.end(), -1);
         for (int h = 0; h < static_cast<int>(origin_.size()); ++h) {
@@ -25,7 +26,7 @@ void ConeTriangulation::take_out_vertices(const MapVariables& variables, int ver
     refresh();
     std::vector<int> left;
     for (int v = 0; v < vertex_count; ++v) {
-        if (!variables.is_node[at(v)] && outgoing[at(v)] >= 0) left.push_back(v);
+        if (!is_node[at(v)] && outgoing[at(v)] >= 0) left.push_back(v);
     }
     // A vertex whose star has edges to itself has to wait for others to go.
     int idle = 0;

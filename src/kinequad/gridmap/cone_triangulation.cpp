@@ -55,12 +55,44 @@ ConeTriangulation::ConeTriangulation(const ChartedMesh& mesh, const MapVariables
                    turn(plane_form(row_of(h, 0), row_of(h, 1)), 2);
     }
     for (int t = 0; t < static_cast<int>(is_dead_.size()); ++t) alive_.push_back(t);
+    const std::vector<char> is_node = cut_lines(mesh, variables.is_node);
     make_delaunay();
-    take_out_vertices(variables, mesh.vertex_count);
+    take_out_vertices(is_node);
     compact();
     // What is left joins nodes only: its displacements follow from y alone, without drift.
     snap(integers);
     make_delaunay();
+}
+
+/// Turns lines into two boundaries each, every vertex on them into one vertex a side. Returns which
+/// vertices are nodes then.
+std::vector<char> ConeTriangulation::cut_lines(const ChartedMesh& mesh, std::vector<char> is_node) {
+    bool has_lines = false;
+    for (std::size_t h = 0; h < twin_.size(); ++h) {
+        if (!mesh.is_line[h]) continue;
+        twin_[h] = -1;
+        has_lines = true;
+    }
+    if (!has_lines) return is_node;
+    std::vector<char> is_visited(origin_.size(), 0);
+    std::vector<char> is_taken(is_node.size(), 0);
+    for (std::size_t h = 0; h < origin_.size(); ++h) {
+        if (is_visited[h]) continue;
+        const int v = origin_[h];
+        int number = v;
+        if (is_taken[at(v)]) {
+            number = static_cast<int>(is_node.size());
+            is_node.push_back(is_node[at(v)]);
+        } else {
+            is_taken[at(v)] = 1;
+        }
+        bool is_open = false;
+        for (const int corner : star(static_cast<int>(h), is_open)) {
+            is_visited[at(corner)] = 1;
+            origin_[at(corner)] = number;
+        }
+    }
+    return is_node;
 }
 
 void ConeTriangulation::snap(const Eigen::VectorXd& integers) {

@@ -17,7 +17,8 @@ inline double cross_product(Complex a, Complex b) { return std::imag(std::conj(a
 /// An intrinsic triangulation of the flat cone metric of a map, by its nodes alone. Every half-edge
 /// knows its displacement in the chart of its triangle, and which integer form in the unknowns y
 /// that is. It stays a triangulation (all triangles of positive area) while the nodes are moved, by
-/// flipping an edge where a triangle collapses: as long as that goes on, a map of the surface
+/// flipping an edge where a triangle collapses. Lines inside the surface are cut open, so that no
+/// node can cross them: as long as that goes on, a map of the surface
 /// without a flipped triangle exists for the new positions. docs/gridmap.md, "Whole numbers"
 class ConeTriangulation {
 public:
@@ -59,7 +60,8 @@ public:
 private:
     bool can_flip(int h, double least) const;
     void flip(int h);
-    void take_out_vertices(const MapVariables& variables, int vertex_count);
+    std::vector<char> cut_lines(const ChartedMesh& mesh, std::vector<char> is_node);
+    void take_out_vertices(const std::vector<char>& is_node);
     bool take_out(int v, std::vector<int>& outgoing);
     void compact();
     double time_to_collapse(int t, const std::vector<Complex>& velocity) const;

@@ -51,7 +51,7 @@ Coordinate GridMap::Transition::operator()(Coordinate z) const {
 
 bool GridMapReport::valid() const {
     return flipped_triangles == 0 && broken_transitions == 0 && fractional_translations == 0 &&
-           fractional_singularities == 0 && wrong_cone_angles == 0 && unaligned_boundary_edges == 0;
+           fractional_singularities == 0 && wrong_cone_angles == 0 && unaligned_edges == 0;
 }
 
 GridMapReport verify_grid_map(const GridMap& map) {
@@ -65,12 +65,12 @@ GridMapReport verify_grid_map(const GridMap& map) {
         const Coordinate from = map.corner[h];
         const Coordinate to =
             map.corner[static_cast<std::size_t>(Topology::next(static_cast<int>(h)))];
-        if (topology.twin[h] < 0) {
+        if (topology.twin[h] < 0 || (!map.is_line.empty() && map.is_line[h])) {
             const bool on_line =
                 (from.u == to.u && is_whole(from.u)) || (from.v == to.v && is_whole(from.v));
-            report.unaligned_boundary_edges += on_line ? 0 : 1;
-            continue;
+            report.unaligned_edges += on_line ? 0 : 1;
         }
+        if (topology.twin[h] < 0) continue;
         const auto other = static_cast<std::size_t>(topology.twin[h]);
         const GridMap::Transition& across = map.transition[h];
         report.fractional_translations += is_whole(across.translation) ? 0 : 1;

@@ -87,6 +87,7 @@ GridMap fix_coordinates(const ChartedMesh& mesh, const MapVariables& variables,
     map.topology = build_topology(map.mesh.F, mesh.vertex_count);
     map.corner.resize(mesh.origin.size());
     map.transition.resize(mesh.origin.size());
+    map.is_line = mesh.is_line;
     map.index = Eigen::Map<const Eigen::VectorXi>(mesh.index.data(),
                                                   static_cast<Eigen::Index>(mesh.index.size()));
 
@@ -109,7 +110,7 @@ GridMap fix_coordinates(const ChartedMesh& mesh, const MapVariables& variables,
         GridMap::Coordinate here = {fraction(z.real()), fraction(z.imag())};
         if (variables.is_node[at(v)]) {
             here = {whole(z.real()), whole(z.imag())};
-        } else if (mesh.is_boundary[at(v)]) {
+        } else if (mesh.is_boundary[at(v)] || mesh.is_line[at(start)]) {
             const Complex along = corners[at(Topology::next(start))] - z;
             (std::abs(along.real()) > std::abs(along.imag()) ? here.v : here.u) =
                 std::abs(along.real()) > std::abs(along.imag()) ? whole(z.imag()) : whole(z.real());
@@ -128,9 +129,9 @@ GridMap fix_coordinates(const ChartedMesh& mesh, const MapVariables& variables,
 std::string describe(const GridMapReport& report) {
     return fmt::format(
         "{} flipped triangles, {} broken transitions, {} fractional translations, {} fractional "
-        "singularities, {} wrong cone angles, {} unaligned boundary edges",
+        "singularities, {} wrong cone angles, {} unaligned edges",
         report.flipped_triangles, report.broken_transitions, report.fractional_translations,
-        report.fractional_singularities, report.wrong_cone_angles, report.unaligned_boundary_edges);
+        report.fractional_singularities, report.wrong_cone_angles, report.unaligned_edges);
 }
 
 /// Brings the map to the integers, refining the mesh where its triangles hold the map back, and

@@ -67,6 +67,7 @@ std::vector<MapComponent> split_components(const ChartedMesh& mesh) {
             own.twin.push_back(other < 0 ? -1 : 3 * new_triangle[at(other / 3)] + other % 3);
             own.rotation.push_back(mesh.rotation[at(h)]);
             own.target.push_back(mesh.target[at(h)]);
+            own.is_line.push_back(mesh.is_line[at(h)]);
             own.barycentric.push_back(mesh.barycentric[at(h)]);
         }
     }
@@ -99,6 +100,7 @@ GridMap join_maps(const std::vector<MapComponent>& components, const std::vector
         whole.mesh.barycentric.middleRows(3 * done, 3 * rows) = map.mesh.barycentric;
         whole.mesh.parent.insert(whole.mesh.parent.end(), map.mesh.parent.begin(),
                                  map.mesh.parent.end());
+        whole.is_line.insert(whole.is_line.end(), map.is_line.begin(), map.is_line.end());
         whole.corner.insert(whole.corner.end(), map.corner.begin(), map.corner.end());
         whole.transition.insert(whole.transition.end(), map.transition.begin(),
                                 map.transition.end());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "kinequad/core/error.h"
 #include "kinequad/gridmap/corner_form.h"
@@ -31,7 +32,7 @@ public:
     MapVariables build() {
         number_variables();
         walk_vertices();
-        add_boundary_rows();
+        add_line_rows();
         add_gauge_rows();
         return assemble();
     }
@@ -55,8 +56,9 @@ private:
             if (first_[at(v)] < 0) continue;
             for (int k = 0; k < 2; ++k) {
                 VertexCoordinate& coordinate = coordinate_[at(v)][at(k)];
-                coordinate.is_whole = nodes_[at(v)] != 0 ||
-                                      (mesh_.is_boundary[at(v)] != 0 && k == line_coordinate(v));
+                const bool on_line = mesh_.is_boundary[at(v)] || mesh_.is_line[at(first_[at(v)])];
+                coordinate.is_whole =
+                    nodes_[at(v)] != 0 || (on_line && k == line_coordinate(first_[at(v)]));
                 coordinate.number = !coordinate.is_whole ? vertex_columns_++
                                     : nodes_[at(v)] != 0 ? new_whole(1, 2)
                                                          : new_whole(0, 0);
@@ -71,9 +73,8 @@ private:
         }
     }
 
-    /// The coordinate that is constant along the boundary edge leaving `v`, in the chart there.
-    int line_coordinate(int v) const {
-        const int h = first_[at(v)];
+    /// The coordinate that is constant along half-edge `h` of the boundary or a line, in its chart.
+    int line_coordinate(int h) const {
         const Complex along = mesh_.target[at(Topology::next(h))] - mesh_.target[at(h)];
         return std::abs(along.real()) > std::abs(along.imag()) ? 1 : 0;
     }
@@ -151,16 +152,19 @@ private:
         return add(turned(vertex_form(mesh_.origin[at(h)]), frame.turns), frame.translation);
     }
 
-    void add_boundary_rows() {
+    void add_line_rows() {
         for (int h = 0; h < static_cast<int>(mesh_.origin.size()); ++h) {
-            if (mesh_.twin[at(h)] >= 0) continue;
+            const bool on_boundary = mesh_.twin[at(h)] < 0;
+            const bool on_line = mesh_.is_line[at(h)] && h < mesh_.twin[at(h)];
+            if (!on_boundary && !on_line) continue;
             const int end = Topology::next(h);
-            const int k = line_coordinate(mesh_.origin[at(h)]);
-            const int w = mesh_.origin[at(end)];
-            const VertexCoordinate there = coordinate_[at(w)][at((k + frame_[at(end)].turns) & 1)];
-            if (!there.is_whole) {
+            const int k = line_coordinate(h);
+            for (const int corner : {h, end}) {
+                const int v = mesh_.origin[at(corner)];
+                if (coordinate_[at(v)][at((k + frame_[at(corner)].turns) & 1)].is_whole) continue;
                 throw GridMapError(fmt::format(
-                    "the cross field is not aligned with the boundary at vertex {}", w));
+                    "the cross field is not aligned with the {} at vertex {}",
+                    on_boundary ? "boundary" : "line", v));
             }
             const IntegerCorner difference = add(corner_form(end), turned(corner_form(h), 2));
             rows_.push_back(k == 0 ? difference.u : difference.v);
@@ -285,6 +289,75 @@ std::vector<Complex> MapVariables::corner_coordinates(const Eigen::VectorXd& x) 
     return corners;
 }
 
+namespace {
+
+/// Whether a line passes straight through vertex `v`: two half-edges of lines leave it, half a turn
+/// of the cross field apart on both sides. `start` is one of them.
+bool passes_straight(const ChartedMesh& mesh, int start) {
+    const auto quarter = [&](int h) {
+        const Complex along = mesh.target[at(Topology::next(h))] - mesh.target[at(h)];
+        return static_cast<int>(std::lround(std::arg(along) / (std::numbers::pi / 2)));
+    };
+    int turns = 0;  // from the chart of `start` to the one here
+    int others = 0;
+    bool is_straight = false;
+    for (int h = start;;) {
+        const int in = Topology::previous(h);
+        if (mesh.twin[at(in)] < 0) return false;
+        turns += mesh.rotation[at(in)];
+        h = mesh.twin[at(in)];
+        if (h == start) break;
+        if (!mesh.is_line[at(h)]) continue;
+        ++others;
+        is_straight = ((quarter(h) - turns - quarter(start)) & 3) == 2;
+    }
+    return others == 1 && is_straight;
+}
+
+/// Ends, corners and crossings of lines are nodes, and so is one vertex of every closed line
+/// without any.
+void find_line_nodes(const ChartedMesh& mesh, const std::vector<int>& first,
+                     std::vector<char>& nodes) {
+    for (int v = 0; v < mesh.vertex_count; ++v) {
+        const int h = first[at(v)];
+        if (h < 0) continue;
+        if (mesh.twin[at(h)] < 0) {
+            // On the boundary any line ends.
+            for (int e = h; e >= 0; e = mesh.twin[at(Topology::previous(e))]) {
+                if (mesh.is_line[at(e)]) nodes[at(v)] = 1;
+            }
+        } else if (mesh.is_line[at(h)] && !passes_straight(mesh, h)) {
+            nodes[at(v)] = 1;
+        }
+    }
+    std::vector<char> seen(at(mesh.vertex_count), 0);
+    std::vector<std::vector<int>> along(at(mesh.vertex_count));
+    for (std::size_t h = 0; h < mesh.origin.size(); ++h) {
+        if (!mesh.is_line[h]) continue;
+        along[at(mesh.origin[h])].push_back(
+            mesh.origin[at(Topology::next(static_cast<int>(h)))]);
+    }
+    for (int seed = 0; seed < mesh.vertex_count; ++seed) {
+        if (seen[at(seed)] || along[at(seed)].empty()) continue;
+        bool has_node = false;
+        std::vector<int> stack = {seed};
+        seen[at(seed)] = 1;
+        while (!stack.empty()) {
+            const int v = stack.back();
+            stack.pop_back();
+            has_node = has_node || nodes[at(v)] != 0;
+            for (const int w : along[at(v)]) {
+                if (seen[at(w)]) continue;
+                seen[at(w)] = 1;
+                stack.push_back(w);
+            }
+        }
+        if (!has_node) nodes[at(seed)] = 1;
+    }
+}
+
+}  // namespace
+
 std::vector<char> find_nodes(const ChartedMesh& mesh) {
     std::vector<char> nodes(at(mesh.vertex_count), 0);
     for (int v = 0; v < mesh.vertex_count; ++v) nodes[at(v)] = mesh.index[at(v)] != 0 ? 1 : 0;
@@ -303,6 +376,8 @@ std::vector<char> find_nodes(const ChartedMesh& mesh) {
         }
         if (!has_node) nodes[at(mesh.origin[start])] = 1;
     }
+
+    find_line_nodes(mesh, first, nodes);
 
     // One vertex on every component without any.
     std::vector<char> reached(mesh.parent.size(), 0);

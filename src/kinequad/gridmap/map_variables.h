@@ -22,7 +22,7 @@ struct MapVariables {
     std::vector<int> column;
     std::vector<double> coefficient;
 
-    /// Positions that have to become whole numbers: coordinates of nodes and of boundary lines, and
+    /// Positions that have to become whole numbers: coordinates of nodes, boundary and lines, and
     /// the translations of the cut, as forms in the chain columns (numbered from 0).
     std::vector<LinearForm<double>> whole;
     int position_count = 0;  ///< the first of `whole` are coordinates, the others translations
@@ -32,7 +32,8 @@ struct MapVariables {
     /// off the cut and the nodes. Two a corner.
     std::vector<LinearForm<long>> integer_part;
     /// n: nonzero at nodes, the vertices with integer coordinates: singular vertices, corners of
-    /// the boundary, and one vertex where a boundary loop or a component has none.
+    /// the boundary, ends, corners and crossings of lines, and one vertex where a boundary loop, a
+    /// closed line or a component has none.
     std::vector<char> is_node;
 
     int columns() const { return vertex_columns + chain_columns; }

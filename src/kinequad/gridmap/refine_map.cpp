@@ -31,11 +31,11 @@ public:
         const RealCorner a = corners_[at(h)];
         const RealCorner b = corners_[at(n)];
         RealCorner middle;
-        if (g >= 0) {
+        if (g >= 0 && !mesh_.is_line[at(h)]) {
             middle = {new_column((value(a.u) + value(b.u)) / 2),
                       new_column((value(a.v) + value(b.v)) / 2)};
         } else {
-            // On the boundary one coordinate stays that of the line.
+            // On the boundary and on lines one coordinate stays that of the line.
             const Complex along(value(b.u) - value(a.u), value(b.v) - value(a.v));
             if (std::abs(along.real()) > std::abs(along.imag())) {
                 middle = {new_column((value(a.u) + value(b.u)) / 2), a.v};

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "kinequad/extract/quad_mesh.h"
+#include "kinequad/field/compute_cross_field.h"
 #include "kinequad/mesh/intrinsic_metric.h"
 #include "kinequad/symmetry/symmetric_half.h"
 
@@ -15,10 +16,15 @@ struct Domain {
     SymmetricHalf surface;
     Topology topology;       ///< of `surface.mesh`
     IntrinsicMetric metric;  ///< that the field and the map are made for
+    std::vector<int> feature_edges;  ///< edges inside that become lines of the quad mesh
+    /// Directions that crosses have to keep, beside edges.
+    std::vector<FixedDirection> fixed_directions;
 
     bool is_half() const { return !surface.mirrored.empty(); }
-    /// Edges of the stationary curve, ascending.
+    /// Edges of the stationary curve, ascending: on the boundary of a half, else inside.
     std::vector<int> curve_edges() const;
+    /// Edges of features and of the stationary curve.
+    std::vector<int> line_edges() const;
 };
 
 /// Which vertices (v) of quads on a half, given in its triangles, lie on the stationary curve.

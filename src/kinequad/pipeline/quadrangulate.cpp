@@ -12,7 +12,10 @@
 #include "kinequad/extract/mirrored_quads.h"
 #include "kinequad/extract/verify_quad_mesh.h"
 #include "kinequad/gridmap/compute_grid_map.h"
+#include "kinequad/field/refine_cross_field.h"
 #include "kinequad/io/memory_sequence.h"
+#include "kinequad/mesh/feature_edges.h"
+#include "kinequad/mesh/split_along_level.h"
 #include "kinequad/mesh/widen_flat_triangles.h"
 #include "kinequad/pipeline/check_input.h"
 #include "kinequad/pipeline/refine_coarse_input.h"
@@ -59,6 +62,8 @@ void check_areas(const FrameSource& source, const Topology& topology,
 }
 
 constexpr int largest_evening_rounds = 8;
+/// Share of an edge within which vertices come to lie on the stationary curve.
+constexpr double curve_snap_share = 0.2;
 
 /// Shapes in which the two sides are matched: the reference and some frames, evenly chosen.
 std::vector<Positions> matching_shapes(const FrameSource& frames, const Positions& reference) {
@@ -69,6 +74,44 @@ std::vector<Positions> matching_shapes(const FrameSource& frames, const Position
         shapes.push_back(frames.read_frame(i * frames.frame_count() / count));
     }
     return shapes;
+}
+
+/// Directions of the stationary curve in the triangles of the surface that the edges of the curve
+/// touch once it is inserted: smoothed where the map has them, else those of the edges.
+std::vector<FixedDirection> curve_directions(const LevelSplit& split, const Topology& topology,
+                                             const IntrinsicMetric& metric,
+                                             const SymmetryMap& map) {
+    std::vector<FixedDirection> directions;
+    std::vector<int> known(static_cast<std::size_t>(topology.triangle_count), 0);
+    for (const StationaryDirection& crossed : map.stationary_direction) {
+        known[static_cast<std::size_t>(crossed.triangle)] = 1;
+    }
+    std::vector<int> is_wanted(known.size(), 0);
+    for (Eigen::Index corner = 0; corner < split.mesh.F.size(); ++corner) {
+        const Eigen::Index next = corner % 3 == 2 ? corner - 2 : corner + 1;
+        const auto on_curve = [&](Eigen::Index c) {
+            return split.is_on_level[static_cast<std::size_t>(split.mesh.F.data()[c])] != 0;
+        };
+        if (!on_curve(corner) || !on_curve(next)) continue;
+        const int t = split.mesh.parent[static_cast<std::size_t>(corner / 3)];
+        int& wanted = is_wanted[static_cast<std::size_t>(t)];
+        if (wanted || known[static_cast<std::size_t>(t)]) {
+            wanted = 1;
+            continue;
+        }
+        wanted = 1;
+        const Vector2 along = lay_out_triangle(side_lengths(topology, metric, t)) *
+                              (split.mesh.barycentric.row(next) -
+                               split.mesh.barycentric.row(corner))
+                                  .transpose();
+        directions.push_back({t, std::atan2(along[1], along[0])});
+    }
+    for (const StationaryDirection& crossed : map.stationary_direction) {
+        if (is_wanted[static_cast<std::size_t>(crossed.triangle)]) {
+            directions.push_back({crossed.triangle, crossed.angle});
+        }
+    }
+    return directions;
 }
 
 /// The quads of both sides, from those of the half.
@@ -184,7 +227,9 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     finish_stage("metric");
 
     if (result.options.symmetry == SymmetryMode::none) {
-        result.quads = solve_quads({{frames, reference, metric}}, result, context, finish_stage);
+        const std::vector<DomainView> views = {{frames, reference, metric}};
+        solve_field(views, result, context, finish_stage);
+        result.quads = solve_quads(views, result, context, finish_stage);
         put_on_input(result);
         note_density(result, context);
         finish_stage("relaxation");
@@ -192,6 +237,36 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     }
 
     result.symmetry = find_symmetry(frames, metric, landmarks, reference, context);
+    if (result.options.symmetry == SymmetryMode::field) {
+        const LevelSplit split =
+            split_along_level(topology, metric, result.symmetry->map.height, curve_snap_share);
+        result.domain.fixed_directions =
+            curve_directions(split, topology, metric, result.symmetry->map);
+        finish_stage("symmetry");
+        solve_field({{frames, reference, metric}}, result, context, finish_stage);
+        Domain whole;
+        whole.surface.mesh = split.mesh;
+        whole.surface.is_on_curve = split.is_on_level;
+        whole.topology = build_topology(split.mesh.F, split.mesh.vertex_count);
+        const CarriedSequence cut(frames, split.mesh.F, vertex_points(split.mesh));
+        Positions pose = cut.carry(reference);
+        whole.metric = choose_metric(cut, whole.topology, pose, result.options, context);
+        if (result.options.feature_angle > 0) {
+            whole.feature_edges =
+                find_feature_edges(whole.topology, pose, result.options.feature_angle);
+        }
+        result.field = refine_cross_field(result.field, topology, metric, split.mesh,
+                                          whole.topology, whole.metric);
+        result.domain = std::move(whole);
+        result.quads = solve_quads({{cut, std::move(pose), result.domain.metric}}, result, context,
+                                   finish_stage);
+        for (SurfacePoint& point : result.quads.vertex) point = point_of_input(split.mesh, point);
+        require_valid(verify_quad_mesh(result.quads, topology));
+        put_on_input(result);
+        note_density(result, context);
+        finish_stage("relaxation");
+        return result;
+    }
     SymmetricHalf& half = result.domain.surface;
     half =
         take_symmetric_half(topology, metric, result.symmetry->map, reference, surface.triangles());
@@ -213,6 +288,7 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
         (views[0].metric.edge_length + views[1].metric.edge_length) / 2;
     finish_stage("symmetry");
 
+    solve_field(views, result, context, finish_stage);
     const QuadMesh quads = solve_quads(views, result, context, finish_stage);
     result.quads = mirror_quads(frames, topology, metric, reference, result, quads, context);
     put_on_input(result);

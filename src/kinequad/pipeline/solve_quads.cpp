@@ -12,6 +12,7 @@
 #include "kinequad/extract/verify_quad_mesh.h"
 #include "kinequad/field/compute_cross_field.h"
 #include "kinequad/field/cross_field_targets.h"
+#include "kinequad/field/symmetrise_field.h"
 #include "kinequad/field/verify_cross_field.h"
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/mesh/feature_edges.h"
@@ -42,8 +43,12 @@ void require_valid_field(const CrossFieldReport& report) {
         report.unaligned_triangles));
 }
 
-CrossField make_cross_field(const Result& result, const Positions& reference,
-                            const Context& context) {
+/// Weight of the symmetrised field as soft constraint, in the energy whose smoothness counts 1.
+double orbit_weight(const Options& options) {
+    return options.field == CrossFieldMethod::paper ? *options.alpha / (1 - *options.alpha) : 1;
+}
+
+CrossField make_cross_field(const Result& result, const Context& context) {
     CrossFieldTargetOptions target_options;
     target_options.method = result.options.field;
     target_options.alpha = *result.options.alpha;
@@ -56,15 +61,19 @@ CrossField make_cross_field(const Result& result, const Positions& reference,
     options.singularity_cost = result.options.singularity_cost;
     options.edge_length = result.edge_length;
     if (result.domain.is_half()) options.mirror_edges = result.domain.curve_edges();
-    if (result.options.feature_angle > 0) {
-        options.feature_edges =
-            find_feature_edges(result.domain.topology, reference, result.options.feature_angle);
-    }
-    CrossField field = compute_cross_field(result.domain.topology, result.domain.metric, targets,
-                                           options, context);
-    require_valid_field(
-        verify_cross_field(result.domain.topology, result.domain.metric, field, options));
-    return field;
+    options.feature_edges = result.domain.feature_edges;
+    options.fixed_directions = result.domain.fixed_directions;
+    const auto solve = [&](const CrossFieldTargets& soft) {
+        CrossField field = compute_cross_field(result.domain.topology, result.domain.metric, soft,
+                                               options, context);
+        require_valid_field(
+            verify_cross_field(result.domain.topology, result.domain.metric, field, options));
+        return field;
+    };
+    CrossField field = solve(targets);
+    if (result.options.symmetry != SymmetryMode::field) return field;
+    return solve(average_over_orbits(result.domain.topology, result.domain.metric, field,
+                                     result.symmetry->map, orbit_weight(result.options), context));
 }
 
 void require_valid_map(const GridMap& map) {
@@ -72,12 +81,11 @@ void require_valid_map(const GridMap& map) {
     if (report.valid()) return;
     throw VerificationError(fmt::format(
         "the grid map is not valid: {} flipped triangles, {} broken transitions, {} fractional "
-        "translations, {} singularities off the grid, {} wrong cone angles, {} boundary edges off "
-        "their "
+        "translations, {} singularities off the grid, {} wrong cone angles, {} edges off their "
         "lines; please report this input",
         report.flipped_triangles, report.broken_transitions, report.fractional_translations,
         report.fractional_singularities, report.wrong_cone_angles,
-        report.unaligned_boundary_edges));
+        report.unaligned_edges));
 }
 
 /// Quads of a half without edges between two vertices of the stationary curve inside.
@@ -103,6 +111,7 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
     const Domain& domain = result.domain;
     GridMapOptions options;
     options.edge_length = result.edge_length;
+    options.line_edges = domain.is_half() ? domain.feature_edges : domain.line_edges();
     for (int attempt = 1;; ++attempt) {
         try {
             result.map =
@@ -128,15 +137,21 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
 
 }  // namespace
 
+void solve_field(const std::vector<DomainView>& views, Result& result, const Context& context,
+                 const std::function<void(const char* stage)>& finish_stage) {
+    if (result.options.feature_angle > 0) {
+        result.domain.feature_edges = find_feature_edges(
+            result.domain.topology, views.front().reference, result.options.feature_angle);
+    }
+    result.tensors = measure_deformation(views, result, context);
+    finish_stage("deformation");
+    result.field = make_cross_field(result, context);
+    finish_stage("field");
+}
+
 QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const Context& context,
                      const std::function<void(const char* stage)>& finish_stage) {
     const Domain& domain = result.domain;
-    result.tensors = measure_deformation(views, result, context);
-    finish_stage("deformation");
-
-    result.field = make_cross_field(result, views.front().reference, context);
-    finish_stage("field");
-
     QuadMesh quads = map_and_extract(views, result, context, finish_stage);
     finish_stage("extraction");
 
@@ -147,7 +162,7 @@ QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const
         relax_options.reference_frame = is_single_pose(result.options) ? std::optional<int>(0)
                                         : is_frame ? std::optional<int>(result.options.reference)
                                                    : std::nullopt;
-        if (domain.is_half()) relax_options.sliding_edges = domain.curve_edges();
+        relax_options.line_edges = domain.line_edges();
         std::vector<RelaxView> relax_views;
         for (const DomainView& view : views) relax_views.push_back({view.frames, view.reference});
         quads =

@@ -18,9 +18,15 @@ struct DomainView {
     IntrinsicMetric metric;
 };
 
-/// Solves the quads of `result.domain`: tensors, field, map, extraction and relaxation, each
-/// verified. Fills in `tensors`, `field` and `map` of `result` and calls `finish_stage` after each
-/// stage. Returns the quads, whose vertices are points of the domain's triangles. Throws as
+/// Solves the cross field of `result.domain`: tensors and field, verified; with the symmetry
+/// `field` twice, the second time drawn to the first one's average over the orbits of
+/// `result.symmetry`, whose triangles are the domain's then. Fills in `tensors`, `field` and the
+/// domain's features, and calls `finish_stage` after each stage. Throws as `quadrangulate`.
+void solve_field(const std::vector<DomainView>& views, Result& result, const Context& context,
+                 const std::function<void(const char* stage)>& finish_stage);
+
+/// Makes quads of `result.field` over `result.domain`: map, extraction and relaxation, each
+/// verified. Fills in `map` and calls `finish_stage` after each stage. Returns the quads, whose vertices are points of the domain's triangles. Throws as
 /// `quadrangulate`.
 QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const Context& context,
                      const std::function<void(const char* stage)>& finish_stage);

@@ -202,8 +202,8 @@ int SlidingQuads::cover_extremities_in(const Frame& reference, double limit,
         std::sort(corners.begin(), corners.end());
         const int h = topology_.vertex_half_edge[at(f.vertex)];
         const SurfacePoint extremity{h / 3, Vector3::Unit(h % 3)};
-        const bool is_on_line = topology_.is_boundary_vertex(f.vertex);
-        if (is_on_line && (!walk_ || walk_->half_edge_of(extremity) < 0)) continue;
+        const bool is_on_line = walk_ && walk_->edge_of(extremity) >= 0;
+        if (topology_.is_boundary_vertex(f.vertex) && !is_on_line) continue;
         for (const auto& [distance, v] : corners) {
             // The tip of a line of symmetry is for a vertex of the line, all others for the rest.
             if (is_pinned_[at(v)] || (slides_[at(v)] != 0) != is_on_line) continue;

@@ -90,7 +90,7 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
                      const RelaxOptions& options, const Context& context) {
     SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
                          sample_frames(views, options), static_cast<int>(views.size()));
-    sliding.let_slide(options.sliding_edges);
+    sliding.let_slide(options.line_edges);
     if (!options.pinned.empty()) sliding.pin(options.pinned);
     const double limit = options.distance_limit * sliding.mean_edge_length();
     for (int round = 0; round < options.rounds; ++round) {

@@ -24,9 +24,9 @@ struct RelaxOptions {
     double distance_limit = 0.4;
     /// Vertices (v) that stay where they are, beside those on the boundary; empty for none.
     std::vector<char> pinned = {};
-    /// Boundary edges of the surface that quad vertices on them may slide along, such as a line of
-    /// symmetry, which is no border of the whole.
-    std::vector<int> sliding_edges = {};
+    /// Edges of lines of the surface, such as the line of symmetry or features: quad vertices on
+    /// them slide along them.
+    std::vector<int> line_edges = {};
 };
 
 /// An animation that quads are relaxed in, and the pose of it in which none may stay folded.
@@ -37,7 +37,7 @@ struct RelaxView {
 
 /// Slides the vertices of a quad mesh over the surface so that quads come closer to squares in all
 /// sampled frames at once, and unfolds folded ones. Connectivity stays, and so do
-/// boundary vertices, but along `sliding_edges`. Every
+/// boundary vertices, but along `line_edges`. Every
 /// move lowers the sum over the sampled frames and the quads around the vertex of squared corner
 /// cosines plus a barrier against folding, but for those that cover an extremity or unfold a quad.
 ///

@@ -86,9 +86,9 @@ void SlidingQuads::let_slide(const std::vector<int>& edges) {
     if (edges.empty()) return;
     walk_.emplace(topology_, metric_, edges);
     for (std::size_t v = 0; v < quads_.vertex.size(); ++v) {
-        if (!stays_[v] || walk_->half_edge_of(quads_.vertex[v]) < 0) continue;
-        slides_[v] = 1;
-        stays_[v] = is_pinned_[v] = 0;
+        if (walk_->edge_of(quads_.vertex[v]) < 0) continue;
+        slides_[v] = walk_->is_passed(quads_.vertex[v]) ? 1 : 0;
+        stays_[v] = is_pinned_[v] = slides_[v] ? 0 : 1;
     }
 }
 
@@ -179,12 +179,9 @@ Vector2 SlidingQuads::wanted_move(int v) const {
 }
 
 /// Where a straight walk of vertex `v` ends; `start` where it would end on the boundary, which is
-/// the place of boundary vertices alone. Those that slide keep to it.
+/// the place of boundary vertices alone. Those on a line keep to it.
 SurfacePoint SlidingQuads::walked(int v, const SurfacePoint& start, const Vector2& move) const {
-    if (slides_[at(v)]) {
-        const int h = walk_->half_edge_of(start);
-        return h < 0 ? start : walk_->walk(start, h, move.dot(walk_->direction(h)));
-    }
+    if (slides_[at(v)]) return walk_->walk(start, move);
     const SurfacePoint end = trace_geodesic(topology_, metric_, start, move);
     for (int k = 0; k < 3; ++k) {
         const int opposite = 3 * end.triangle + (k + 1) % 3;

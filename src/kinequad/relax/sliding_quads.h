@@ -6,7 +6,7 @@
 
 #include "kinequad/core/context.h"
 #include "kinequad/extract/quad_mesh.h"
-#include "kinequad/mesh/boundary_walk.h"
+#include "kinequad/mesh/line_walk.h"
 #include "kinequad/mesh/closest_points.h"
 #include "kinequad/mesh/intrinsic_metric.h"
 #include "kinequad/relax/quad_cost.h"
@@ -29,7 +29,8 @@ public:
     SlidingQuads(const QuadMesh& quads, const Topology& topology, const IntrinsicMetric& metric,
                  const Triangles& F, std::vector<SampledFrame> frames, int reference_count);
 
-    /// Sets vertices on the boundary edges `edges` of the surface free to move along them.
+    /// Ties vertices on the edges `edges` of the surface to them: they move along lines of these,
+    /// those at ends of lines stay.
     void let_slide(const std::vector<int>& edges);
 
     /// Vertices (v, nonzero) that stay where they are, beside those on the boundary.
@@ -126,8 +127,8 @@ private:
     std::vector<int> corner_;  ///< corner c of quad q as 4q + c
     std::vector<char> is_pinned_;
     std::vector<char> stays_;       ///< v: on the boundary, or told to
-    std::vector<char> slides_;      ///< v: on the boundary, along which it may move
-    std::optional<BoundaryWalk> walk_;
+    std::vector<char> slides_;      ///< v: on a line, along which it may move
+    std::optional<LineWalk> walk_;
     std::vector<char> is_watched_;  ///< q: see `relax_pass`
 };
 

@@ -1,0 +1,66 @@
+#include "kinequad/field/refine_cross_field.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "kinequad/field/field_problem.h"
+
+namespace kinequad {
+namespace {
+
+constexpr double quarter = std::numbers::pi / 2;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The half-edge of the parent that half-edge `h` of the refined mesh lies on, -1 inside.
+int half_edge_of_parent(const RefinedMesh& fine, int h) {
+    const auto a = fine.barycentric.row(h);
+    const auto b = fine.barycentric.row(Topology::next(h));
+    for (int k = 0; k < 3; ++k) {
+        if (a[k] == 0 && b[k] == 0) return 3 * fine.parent[at(h / 3)] + (k + 1) % 3;
+    }
+    return -1;
+}
+
+}  // namespace
+
+CrossField refine_cross_field(const CrossField& field, const Topology& topology,
+                              const IntrinsicMetric& metric, const RefinedMesh& fine,
+                              const Topology& fine_topology, const IntrinsicMetric& fine_metric) {
+    CrossField result;
+    result.energy = field.energy;
+    result.angle.resize(fine_topology.triangle_count);
+    for (int t = 0; t < fine_topology.triangle_count; ++t) {
+        const int parent = fine.parent[at(t)];
+        const auto layout = lay_out_triangle(side_lengths(topology, metric, parent));
+        const Vector2 axis =
+            layout * (fine.barycentric.row(3 * t + 1) - fine.barycentric.row(3 * t)).transpose();
+        result.angle[t] = field.angle[parent] - std::atan2(axis[1], axis[0]);
+    }
+    result.period_jump = Eigen::VectorXi::Zero(fine_topology.edge_count);
+    for (int e = 0; e < fine_topology.edge_count; ++e) {
+        const int h = fine_topology.edge_half_edge[at(e)];
+        const int other = fine_topology.twin[at(h)];
+        if (other < 0) continue;
+        double wanted = 0;
+        const int coarse = half_edge_of_parent(fine, h);
+        if (coarse >= 0 && fine.parent[at(h / 3)] != fine.parent[at(other / 3)]) {
+            const int edge = topology.edge[at(coarse)];
+            const int lower = topology.edge_half_edge[at(edge)];
+            const double residual = field.angle[lower / 3] +
+                                    frame_rotation(topology, metric, lower) +
+                                    quarter * field.period_jump[edge] -
+                                    field.angle[topology.twin[at(lower)] / 3];
+            wanted = coarse == lower ? residual : -residual;
+        }
+        const double without = result.angle[h / 3] +
+                               frame_rotation(fine_topology, fine_metric, h) -
+                               result.angle[other / 3];
+        result.period_jump[e] = nearest_quarter(wanted - without);
+    }
+    result.index = Eigen::VectorXi::Zero(fine_topology.vertex_count);
+    result.index.head(field.index.size()) = field.index;
+    return result;
+}
+
+}  // namespace kinequad

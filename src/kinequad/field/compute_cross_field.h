@@ -36,6 +36,9 @@ struct CrossFieldOptions {
     /// singular on them, and so lies on the line of symmetry, is priced as two quarters in one
     /// vertex.
     std::vector<int> mirror_edges = {};
+    /// Vertices that singularities should keep away from, such as those beside a line that the quad
+    /// mesh has to follow: what is singular there is priced as two quarters in one vertex.
+    std::vector<int> avoided_vertices = {};
     /// Further triangles whose cross is given; a boundary or feature edge has precedence.
     std::vector<FixedDirection> fixed_directions = {};
 };

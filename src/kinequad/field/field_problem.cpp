@@ -43,6 +43,11 @@ void check_options(const Topology& topology, const CrossFieldTargets& targets,
                              fmt::format("mirror edge {} is no boundary edge of the mesh", e));
         }
     }
+    for (const int v : options.avoided_vertices) {
+        if (v < 0 || v >= topology.vertex_count) {
+            throw InputError(InputFault::usage, fmt::format("avoided vertex {} does not exist", v));
+        }
+    }
     for (const FixedDirection& fixed : options.fixed_directions) {
         if (fixed.triangle < 0 || fixed.triangle >= topology.triangle_count ||
             !std::isfinite(fixed.angle)) {
@@ -139,6 +144,8 @@ FieldProblem make_field_problem(const Topology& topology, const IntrinsicMetric&
 
     const std::vector<double> directions = all_directions(topology, metric);
     fix_crosses(problem, topology, metric, options, directions);
+    problem.is_avoided.assign(at(topology.vertex_count), false);
+    for (const int v : options.avoided_vertices) problem.is_avoided[at(v)] = true;
     problem.mirror_edges_at.assign(at(topology.vertex_count), 0);
     for (const int e : options.mirror_edges) {
         const int h = topology.edge_half_edge[at(e)];

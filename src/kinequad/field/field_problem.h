@@ -26,6 +26,7 @@ struct FieldProblem {
     std::vector<bool> fixed;            ///< m: cross is given
     Eigen::VectorXd fixed_angle;        ///< m: radians
     std::vector<int> mirror_edges_at;   ///< n: number of mirror edges at a vertex
+    std::vector<bool> is_avoided;       ///< n: singularities cost more there
     std::vector<int> component;         ///< m: connected component of a triangle
     std::vector<bool> anchored;         ///< component: has a fixed cross or soft terms that matter
 };

@@ -73,7 +73,11 @@ std::vector<char> ConeTriangulation::cut_lines(const ChartedMesh& mesh, std::vec
         twin_[h] = -1;
         has_lines = true;
     }
+    is_on_line_.assign(is_node.size(), 0);
     if (!has_lines) return is_node;
+    for (std::size_t h = 0; h < twin_.size(); ++h) {
+        if (mesh.is_line[h]) is_on_line_[at(origin_[h])] = 1;
+    }
     std::vector<char> is_visited(origin_.size(), 0);
     std::vector<char> is_taken(is_node.size(), 0);
     for (std::size_t h = 0; h < origin_.size(); ++h) {
@@ -83,6 +87,7 @@ std::vector<char> ConeTriangulation::cut_lines(const ChartedMesh& mesh, std::vec
         if (is_taken[at(v)]) {
             number = static_cast<int>(is_node.size());
             is_node.push_back(is_node[at(v)]);
+            is_on_line_.push_back(is_on_line_[at(v)]);
         } else {
             is_taken[at(v)] = 1;
         }
@@ -244,6 +249,34 @@ double ConeTriangulation::edge_length(int half_edge) const {
 LinearForm<double> ConeTriangulation::edge_length_gradient(int half_edge) const {
     const Complex direction = displacement_[at(half_edge)] / edge_length(half_edge);
     return product(form_[at(half_edge)], direction.real(), direction.imag());
+}
+
+std::vector<int> ConeTriangulation::overlooked_lines() const {
+    std::vector<int> found;
+    for (const int t : alive_) {
+        for (int h = 3 * t; h < 3 * t + 3; ++h) {
+            const bool is_on_line = twin_[at(h)] < 0 && is_on_line_[at(origin_[at(h)])] &&
+                                    is_on_line_[at(origin_[at(Topology::next(h))])];
+            if (!is_on_line) continue;
+            const Complex base = displacement_[at(h)];
+            const Complex to_apex = -displacement_[at(Topology::previous(h))];
+            const double foot = std::real(std::conj(base) * to_apex);
+            if (foot >= 0 && foot <= std::norm(base)) found.push_back(h);
+        }
+    }
+    return found;
+}
+
+double ConeTriangulation::height(int half_edge) const {
+    return determinant(half_edge / 3) / edge_length(half_edge);
+}
+
+LinearForm<double> ConeTriangulation::height_gradient(int half_edge) const {
+    const double length = edge_length(half_edge);
+    LinearForm<double> gradient = add_scaled(determinant_gradient(half_edge / 3),
+                                             -height(half_edge), edge_length_gradient(half_edge));
+    for (auto& [unknown, c] : gradient) c /= length;
+    return gradient;
 }
 
 bool ConeTriangulation::is_loop(int half_edge) const {

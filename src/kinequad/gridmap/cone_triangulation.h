@@ -49,6 +49,12 @@ public:
     /// Length in cells of the edge of a half-edge, and its derivative by y.
     double edge_length(int half_edge) const;
     LinearForm<double> edge_length_gradient(int half_edge) const;
+    /// The half-edges on lines over which the apex of their triangle lies: its foot is between their
+    /// ends.
+    std::vector<int> overlooked_lines() const;
+    /// Height in cells of the apex of the triangle of a half-edge over it, and its derivative by y.
+    double height(int half_edge) const;
+    LinearForm<double> height_gradient(int half_edge) const;
     /// Whether the edge of a half-edge runs from a node back to itself: around a limb, a handle or
     /// a hole.
     bool is_loop(int half_edge) const;
@@ -77,7 +83,8 @@ private:
     std::vector<Complex> displacement_;
     std::vector<PlaneForm>
         form_;  ///< the displacement as a form in y; zero between vertices that are no nodes
-    std::vector<int> alive_;  ///< triangles in use
+    std::vector<char> is_on_line_;  ///< by vertex: on a line inside the surface
+    std::vector<int> alive_;        ///< triangles in use
     std::vector<char> is_dead_;
     Eigen::VectorXd integers_;
 };

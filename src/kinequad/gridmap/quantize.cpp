@@ -54,6 +54,11 @@ private:
             const double lack = wanted_length(h) - cone_.edge_length(h);
             if (lack > 0) sum += room_weight_ * lack * lack;
         }
+        // A long triangle has area even where its apex is next to a line that it must not reach.
+        for (const int h : cone_.overlooked_lines()) {
+            const double lack = wanted_distance - cone_.height(h);
+            if (lack > 0) sum += room_weight_ * lack * lack;
+        }
         return sum;
     }
 
@@ -111,6 +116,10 @@ private:
                 const double lack = wanted_length(h) - cone_.edge_length(h);
                 if (lack > 0)
                     add_residual(lack, cone_.edge_length_gradient(h), place, matrix, right);
+            }
+            for (const int h : cone_.overlooked_lines()) {
+                const double lack = wanted_distance - cone_.height(h);
+                if (lack > 0) add_residual(lack, cone_.height_gradient(h), place, matrix, right);
             }
             const Eigen::VectorXd direction =
                 matrix.selfadjointView<Eigen::Lower>().llt().solve(right);

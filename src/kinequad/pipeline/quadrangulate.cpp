@@ -13,6 +13,7 @@
 #include "kinequad/extract/verify_quad_mesh.h"
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/field/refine_cross_field.h"
+#include "kinequad/field/symmetrise_field.h"
 #include "kinequad/io/memory_sequence.h"
 #include "kinequad/mesh/feature_edges.h"
 #include "kinequad/mesh/split_along_level.h"
@@ -195,7 +196,8 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     result.reference = read_reference_frame(source, result.options.reference);
     require_valid_input(source, result.reference, context);
     result.topology = build_topology(source.triangles(), source.vertex_count());
-    result.refined =
+    // A symmetry map is made of the input as it is: seams would not fit where both sides are cut.
+    if (result.options.symmetry == SymmetryMode::none) result.refined =
         refine_coarse_input(result.topology, result.reference, result.options, context);
     finish_stage("check");
 
@@ -242,6 +244,11 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
             split_along_level(topology, metric, result.symmetry->map.height, curve_snap_share);
         result.domain.fixed_directions =
             curve_directions(split, topology, metric, result.symmetry->map);
+        for (const FixedDirection& fixed : result.domain.fixed_directions) {
+            for (int k = 0; k < 3; ++k) {
+                result.domain.avoided_vertices.push_back(surface.triangles()(fixed.triangle, k));
+            }
+        }
         finish_stage("symmetry");
         solve_field({{frames, reference, metric}}, result, context, finish_stage);
         Domain whole;
@@ -255,8 +262,16 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
             whole.feature_edges =
                 find_feature_edges(whole.topology, pose, result.options.feature_angle);
         }
+        const CrossField before = result.field;
         result.field = refine_cross_field(result.field, topology, metric, split.mesh,
                                           whole.topology, whole.metric);
+        if (std::getenv("DBG")) {
+            for (int v = 0; v < whole.topology.vertex_count; ++v) {
+                if (result.field.index[v] && split.is_on_level[v]) fmt::print("on curve {} index {}\n", v, result.field.index[v]);
+            }
+            const FieldSymmetry fs = measure_field_symmetry(topology, metric, before, result.symmetry->map, reference, surface.triangles(), 3 * result.edge_length);
+            fmt::print("field symmetry {:.3f} degrees, {} of {} partnered\n", fs.mean_degrees, fs.partnered, fs.singularities);
+        }
         result.domain = std::move(whole);
         result.quads = solve_quads({{cut, std::move(pose), result.domain.metric}}, result, context,
                                    finish_stage);

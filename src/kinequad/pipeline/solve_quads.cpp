@@ -63,6 +63,7 @@ CrossField make_cross_field(const Result& result, const Context& context) {
     if (result.domain.is_half()) options.mirror_edges = result.domain.curve_edges();
     options.feature_edges = result.domain.feature_edges;
     options.fixed_directions = result.domain.fixed_directions;
+    options.avoided_vertices = result.domain.avoided_vertices;
     const auto solve = [&](const CrossFieldTargets& soft) {
         CrossField field = compute_cross_field(result.domain.topology, result.domain.metric, soft,
                                                options, context);

@@ -201,9 +201,8 @@ void add_method_options(CLI::App& app, RunCommand& command) {
     app.add_option(
         "--alpha", options.alpha,
         fmt::format("Influence of the animation, from 0 (see the reference frame only) to below "
-                    "1 [{} with convex, {} with paper]",
-                    default_alpha(CrossFieldMethod::convex),
-                    default_alpha(CrossFieldMethod::paper)));
+                    "1 [{}; 0.2 with a symmetry]",
+                    default_alpha(CrossFieldMethod::convex)));
     app.add_option("--curvature", options.curvature, "Influence of the curvature (convex only)")
         ->capture_default_str();
     app.add_option(
@@ -213,8 +212,8 @@ void add_method_options(CLI::App& app, RunCommand& command) {
         ->check(CLI::Range(0.0, 180.0))
         ->capture_default_str();
     app.add_option("--singularity-cost", options.singularity_cost,
-                   "Energy that one singularity may cost, in squared radians (convex only)")
-        ->capture_default_str();
+                   "Energy that one singularity may cost, in squared radians (convex only) [0.08; 0.2 "
+                   "with --symmetry field]");
     app.add_option("--relax", options.relax_rounds,
                    "Rounds in which the vertices slide over the surface towards squares; 0: none")
         ->check(CLI::NonNegativeNumber)

@@ -16,7 +16,15 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape,
     if (!options.symmetry) {
         options.symmetry = has_landmarks ? SymmetryMode::exact : SymmetryMode::none;
     }
-    if (!options.alpha) options.alpha = default_alpha(options.field);
+    if (!options.alpha) {
+        // Symmetric quads cannot follow what the two sides do differently: less is asked of them.
+        const bool is_free =
+            options.symmetry == SymmetryMode::none || options.field == CrossFieldMethod::paper;
+        options.alpha = is_free ? default_alpha(options.field) : 0.2;
+    }
+    if (!options.singularity_cost) {
+        options.singularity_cost = options.symmetry == SymmetryMode::field ? 0.2 : 0.08;
+    }
     if (!options.metric) {
         options.metric = *options.alpha == 0 ? MetricChoice::reference : MetricChoice::mean;
     }
@@ -30,8 +38,8 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape,
           fmt::format("--vertices {}: has to be between 8 and 100000000", options.vertices));
     check(std::isfinite(options.curvature) && options.curvature >= 0,
           fmt::format("--curvature {}: has to be at least 0", options.curvature));
-    check(std::isfinite(options.singularity_cost) && options.singularity_cost >= 0,
-          fmt::format("--singularity-cost {}: has to be at least 0", options.singularity_cost));
+    check(std::isfinite(*options.singularity_cost) && *options.singularity_cost >= 0,
+          fmt::format("--singularity-cost {}: has to be at least 0", *options.singularity_cost));
     check(options.feature_angle >= 0 && options.feature_angle <= 180,
           fmt::format("--feature-angle {}: has to be between 0 and 180 degrees",
                       options.feature_angle));

@@ -30,14 +30,17 @@ struct Options {
     double edge_length = 0;  ///< wanted quad edge length in units of the input; 0: from `vertices`
     /// Recipe of the cross field; `paper` is the energy and solver of Du and Tu.
     CrossFieldMethod field = CrossFieldMethod::convex;
-    /// Influence of the animation on the cross field; empty: what was measured best with `field`.
+    /// Influence of the animation on the cross field; empty: what was measured best with `field` and
+    /// `symmetry`.
     /// With 0 the run sees a single pose, the reference frame.
     std::optional<double> alpha;
     double curvature = 0.1;  ///< influence of the curvature on the cross field (`convex` only)
     /// Edges across which the reference frame turns by more than this are features, which crosses
     /// are aligned with, in degrees; 0: none.
     double feature_angle = 0;
-    double singularity_cost = 0.08;  ///< energy that a singularity may cost, rad^2 (`convex` only)
+    /// Energy that a singularity may cost, in rad^2 (`convex` only); empty: what was measured best
+    /// with `symmetry`.
+    std::optional<double> singularity_cost;
     /// Empty: `mean`, and `reference` where `alpha` is 0.
     std::optional<MetricChoice> metric;
     int reference = 0;     ///< frame that is the reference, or `rest_shape`

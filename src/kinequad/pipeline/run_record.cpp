@@ -36,7 +36,7 @@ Json options_record(const Options& options) {
         {"alpha", *options.alpha},
         {"curvature", options.curvature},
         {"feature_angle", options.feature_angle},
-        {"singularity_cost", options.singularity_cost},
+        {"singularity_cost", *options.singularity_cost},
         {"metric", options.metric == MetricChoice::mean ? "mean" : "reference"},
         {"reference", rest ? Json("rest") : Json(options.reference)},
         {"relax_rounds", options.relax_rounds},

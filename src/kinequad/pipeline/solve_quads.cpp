@@ -7,6 +7,7 @@
 
 #include "kinequad/core/error.h"
 #include "kinequad/deformation/compute_deformation_tensors.h"
+#include "kinequad/deformation/compute_mean_metric.h"
 #include "kinequad/extract/extract_quads.h"
 #include "kinequad/extract/split_rows.h"
 #include "kinequad/extract/verify_quad_mesh.h"
@@ -16,6 +17,7 @@
 #include "kinequad/field/verify_cross_field.h"
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/mesh/feature_edges.h"
+#include "kinequad/mesh/widen_flat_triangles.h"
 #include "kinequad/relax/relax_quads.h"
 
 namespace kinequad {
@@ -43,9 +45,12 @@ void require_valid_field(const CrossFieldReport& report) {
         report.unaligned_triangles));
 }
 
-/// Weight of the symmetrised field as soft constraint, in the energy whose smoothness counts 1.
+/// Weight of the symmetrised field as soft constraint, in the energy whose smoothness counts 1: the
+/// paper's, or one that keeps pairs of singularities but leaves the field free to lose some.
 double orbit_weight(const Options& options) {
-    return options.field == CrossFieldMethod::paper ? *options.alpha / (1 - *options.alpha) : 1;
+    constexpr double gentle = 0.15;
+    return options.field == CrossFieldMethod::paper ? *options.alpha / (1 - *options.alpha)
+                                                    : gentle;
 }
 
 CrossField make_cross_field(const Result& result, const Context& context) {
@@ -58,7 +63,7 @@ CrossField make_cross_field(const Result& result, const Context& context) {
         result.domain.topology, result.domain.metric, result.tensors, target_options);
     CrossFieldOptions options;
     options.method = result.options.field;
-    options.singularity_cost = result.options.singularity_cost;
+    options.singularity_cost = *result.options.singularity_cost;
     options.edge_length = result.edge_length;
     if (result.domain.is_half()) options.mirror_edges = result.domain.curve_edges();
     options.feature_edges = result.domain.feature_edges;
@@ -137,6 +142,14 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
 }
 
 }  // namespace
+
+IntrinsicMetric choose_metric(const FrameSource& frames, const Topology& topology,
+                              const Positions& reference, const Options& options,
+                              const Context& context) {
+    return widen_flat_triangles(topology, options.metric == MetricChoice::reference
+                                              ? metric_of(topology, reference)
+                                              : compute_mean_metric(frames, topology, context));
+}
 
 void solve_field(const std::vector<DomainView>& views, Result& result, const Context& context,
                  const std::function<void(const char* stage)>& finish_stage) {

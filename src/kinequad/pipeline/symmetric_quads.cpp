@@ -1,0 +1,174 @@
+#include "kinequad/pipeline/symmetric_quads.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "kinequad/core/error.h"
+#include "kinequad/extract/mirrored_quads.h"
+#include "kinequad/field/refine_cross_field.h"
+#include "kinequad/mesh/feature_edges.h"
+#include "kinequad/mesh/split_along_level.h"
+#include "kinequad/pipeline/solve_quads.h"
+#include "kinequad/relax/relax_quads.h"
+#include "kinequad/symmetry/even_out_half.h"
+#include "kinequad/transfer/carried_sequence.h"
+
+namespace kinequad {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr int largest_evening_rounds = 8;
+/// Share of an edge within which vertices come to lie on the stationary curve.
+constexpr double curve_snap_share = 0.2;
+
+/// Shapes in which the two sides are matched: the reference and some frames, evenly chosen.
+std::vector<Positions> matching_shapes(const FrameSource& frames, const Positions& reference) {
+    constexpr int largest_count = 8;
+    std::vector<Positions> shapes = {reference};
+    const int count = std::min(largest_count, frames.frame_count());
+    for (int i = 1; i < count; ++i) {
+        shapes.push_back(frames.read_frame(i * frames.frame_count() / count));
+    }
+    return shapes;
+}
+
+/// Directions of the stationary curve in the triangles of the surface that the edges of the curve
+/// touch once it is inserted: smoothed where the map has them, else those of the edges.
+std::vector<FixedDirection> curve_directions(const LevelSplit& split, const Topology& topology,
+                                             const IntrinsicMetric& metric,
+                                             const SymmetryMap& map) {
+    std::vector<FixedDirection> directions;
+    std::vector<int> known(at(topology.triangle_count), 0);
+    for (const StationaryDirection& crossed : map.stationary_direction) {
+        known[at(crossed.triangle)] = 1;
+    }
+    std::vector<int> is_wanted(known.size(), 0);
+    for (Eigen::Index corner = 0; corner < split.mesh.F.size(); ++corner) {
+        const Eigen::Index next = corner % 3 == 2 ? corner - 2 : corner + 1;
+        const auto on_curve = [&](Eigen::Index c) {
+            return split.is_on_level[at(split.mesh.F.data()[c])] != 0;
+        };
+        if (!on_curve(corner) || !on_curve(next)) continue;
+        const int t = split.mesh.parent[static_cast<std::size_t>(corner / 3)];
+        int& wanted = is_wanted[at(t)];
+        if (wanted || known[at(t)]) {
+            wanted = 1;
+            continue;
+        }
+        wanted = 1;
+        const Vector2 along = lay_out_triangle(side_lengths(topology, metric, t)) *
+                              (split.mesh.barycentric.row(next) -
+                               split.mesh.barycentric.row(corner))
+                                  .transpose();
+        directions.push_back({t, std::atan2(along[1], along[0])});
+    }
+    for (const StationaryDirection& crossed : map.stationary_direction) {
+        if (is_wanted[at(crossed.triangle)]) {
+            directions.push_back({crossed.triangle, crossed.angle});
+        }
+    }
+    return directions;
+}
+
+/// The quads of both sides, from those of the half.
+QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const QuadMesh& half,
+                      const Context& context) {
+    const auto& [frames, topology, metric, reference] = surface;
+    const SymmetricHalf& side = result.domain.surface;
+    const std::vector<SurfacePoint> mirrored =
+        mirror_points(side, topology, metric, frames.triangles(),
+                      matching_shapes(frames, reference), half.vertex, context);
+    QuadMesh on_whole{half.Q, {}, {}};
+    for (const SurfacePoint& point : half.vertex) {
+        on_whole.vertex.push_back(point_of_input(side.mesh, point));
+    }
+    const std::vector<char> is_on_curve = curve_vertices(half, result.domain);
+    QuadMesh whole = join_mirrored_quads(on_whole, mirrored, is_on_curve);
+    if (result.options.relax_rounds > 0) {
+        // Where the surface is finer than the map is straight, mirrored quads can still fold.
+        RelaxOptions options;
+        options.rounds = 0;
+        options.pinned.assign(whole.vertex.size(), 0);
+        std::fill_n(options.pinned.begin(), half.vertex.size(), 1);
+        whole.vertex = relax_quads(whole, {{frames, reference}}, topology,
+                                   metric_of(topology, reference), options, context)
+                           .vertex;
+    }
+    const MirrorReport report = verify_mirror(whole);
+    if (!report.valid()) {
+        throw VerificationError(fmt::format(
+            "the quads are not their own mirror image: {} vertices, {} quads and {} vertices on "
+            "the line of symmetry do not fit; please report this input",
+            report.broken_vertices, report.broken_quads, report.loose_fixed_vertices));
+    }
+    return whole;
+}
+
+}  // namespace
+
+QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, const Context& context,
+                               const std::function<void(const char* stage)>& finish_stage) {
+    const auto& [frames, topology, metric, reference] = surface;
+    const SymmetryMap& map = result.symmetry->map;
+    const LevelSplit split = split_along_level(topology, metric, map.height, curve_snap_share);
+    result.domain.fixed_directions = curve_directions(split, topology, metric, map);
+    for (const FixedDirection& fixed : result.domain.fixed_directions) {
+        for (int k = 0; k < 3; ++k) {
+            result.domain.avoided_vertices.push_back(frames.triangles()(fixed.triangle, k));
+        }
+    }
+    finish_stage("symmetry");
+    solve_field({{frames, reference, metric}}, result, context, finish_stage);
+
+    // The map is made over the surface with the curve inserted.
+    Domain cut;
+    cut.surface.mesh = split.mesh;
+    cut.surface.is_on_curve = split.is_on_level;
+    cut.topology = build_topology(split.mesh.F, split.mesh.vertex_count);
+    const CarriedSequence cut_frames(frames, split.mesh.F, vertex_points(split.mesh));
+    const Positions pose = cut_frames.carry(reference);
+    cut.metric = choose_metric(cut_frames, cut.topology, pose, result.options, context);
+    if (result.options.feature_angle > 0) {
+        cut.feature_edges = find_feature_edges(cut.topology, pose, result.options.feature_angle);
+    }
+    result.field = refine_cross_field(result.field, topology, metric, split.mesh, cut.topology,
+                                      cut.metric);
+    result.domain = std::move(cut);
+    QuadMesh quads = solve_quads({{cut_frames, pose, result.domain.metric}}, result, context,
+                                 finish_stage);
+    for (SurfacePoint& point : quads.vertex) point = point_of_input(split.mesh, point);
+    return quads;
+}
+
+QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const Context& context,
+                             const std::function<void(const char* stage)>& finish_stage) {
+    const auto& [frames, topology, metric, reference] = surface;
+    SymmetricHalf& half = result.domain.surface;
+    half = take_symmetric_half(topology, metric, result.symmetry->map, reference,
+                               frames.triangles());
+    const Topology half_topology = build_topology(half.mesh.F, half.mesh.vertex_count);
+    const auto length_of = [&](const CarriedSequence& side) {
+        return choose_metric(side, half_topology, side.carry(reference), result.options, context);
+    };
+    const CarriedSequence near(frames, half.mesh.F, vertex_points(half.mesh));
+    const IntrinsicMetric near_metric = length_of(near);
+    half.mirrored =
+        even_out_half(half, near_metric, topology, metric, largest_evening_rounds, context);
+    const CarriedSequence far(frames, half.mesh.F, half.mirrored, true);
+    const std::vector<DomainView> views = {{near, near.carry(reference), near_metric},
+                                           {far, far.carry(reference), length_of(far)}};
+    result.domain.topology = half_topology;
+    result.domain.metric.edge_length =
+        (views[0].metric.edge_length + views[1].metric.edge_length) / 2;
+    finish_stage("symmetry");
+
+    solve_field(views, result, context, finish_stage);
+    return mirror_quads(surface, result, solve_quads(views, result, context, finish_stage), context);
+}
+
+}  // namespace kinequad

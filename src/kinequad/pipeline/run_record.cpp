@@ -26,24 +26,6 @@ std::string name_of(SymmetryMode mode) {
     }
 }
 
-Json options_record(const Options& options) {
-    const bool rest = options.reference == Options::rest_shape;
-    return {
-        {"symmetry", name_of(*options.symmetry)},
-        {"vertices", options.vertices},
-        {"edge_length", options.edge_length},
-        {"field", options.field == CrossFieldMethod::paper ? "paper" : "convex"},
-        {"alpha", *options.alpha},
-        {"curvature", options.curvature},
-        {"feature_angle", options.feature_angle},
-        {"singularity_cost", options.singularity_cost},
-        {"metric", options.metric == MetricChoice::mean ? "mean" : "reference"},
-        {"reference", rest ? Json("rest") : Json(options.reference)},
-        {"relax_rounds", options.relax_rounds},
-        {"metrics", options.metrics},
-    };
-}
-
 Json counts_record(const SurfaceCounts& counts) {
     return {{"vertices", counts.vertices},
             {"edges", counts.edges},
@@ -106,13 +88,31 @@ Json total_record(const std::vector<StageTime>& times) {
 
 }  // namespace
 
+nlohmann::ordered_json make_options_record(const Options& options) {
+    const bool rest = options.reference == Options::rest_shape;
+    return {
+        {"symmetry", name_of(*options.symmetry)},
+        {"vertices", options.vertices},
+        {"edge_length", options.edge_length},
+        {"field", options.field == CrossFieldMethod::paper ? "paper" : "convex"},
+        {"alpha", *options.alpha},
+        {"curvature", options.curvature},
+        {"feature_angle", options.feature_angle},
+        {"singularity_cost", options.singularity_cost},
+        {"metric", options.metric == MetricChoice::mean ? "mean" : "reference"},
+        {"reference", rest ? Json("rest") : Json(options.reference)},
+        {"relax_rounds", options.relax_rounds},
+        {"metrics", options.metrics},
+    };
+}
+
 nlohmann::ordered_json make_run_record(const Result& result, const FrameSource& source,
                                        const std::string& digest,
                                        const std::optional<SequenceMetrics>& metrics) {
     Json record;
     record["program"] = "kinequad";
     record["version"] = version;
-    record["options"] = options_record(result.options);
+    record["options"] = make_options_record(result.options);
     record["input"] = {
         {"name", source.name()}, {"digest", digest}, {"frames", source.frame_count()}};
     record["input"].update(counts_record(count_surface(result.topology)));

@@ -52,4 +52,47 @@ Camera fit_camera(const Positions& V, const Viewpoint& viewpoint) {
     return camera;
 }
 
+Camera unite_cameras(const Camera& a, const Camera& b) {
+    Camera camera = a;
+    const Vector3 between = b.center - a.center;
+    // One axis of the picture: from the low end of both to the high end.
+    const auto unite = [&](const Vector3& axis, double half_a, double half_b, double& half) {
+        const double offset = between.dot(axis);
+        const double low = std::min(-half_a, offset - half_b);
+        const double high = std::max(half_a, offset + half_b);
+        half = 0.5 * (high - low);
+        camera.center += 0.5 * (low + high) * axis;
+    };
+    unite(a.right, a.half_width, b.half_width, camera.half_width);
+    unite(a.up, a.half_height, b.half_height, camera.half_height);
+    return camera;
+}
+
+std::vector<Camera> turntable_cameras(const Positions& V, const Viewpoint& viewpoint, int count) {
+    std::vector<Camera> cameras;
+    Vector3 center = Vector3::Zero();
+    if (V.rows() > 0) {
+        const Vector3 low = V.colwise().minCoeff().transpose();
+        const Vector3 high = V.colwise().maxCoeff().transpose();
+        center = 0.5 * (low + high);
+    }
+    double half_width = 0;
+    double half_height = 0;
+    for (int k = 0; k < count; ++k) {
+        Viewpoint turned = viewpoint;
+        turned.yaw_degrees += 360.0 * k / count;
+        Camera camera = fit_camera(V, turned);
+        const Vector3 off = camera.center - center;
+        half_width = std::max(half_width, camera.half_width + std::abs(off.dot(camera.right)));
+        half_height = std::max(half_height, camera.half_height + std::abs(off.dot(camera.up)));
+        camera.center = center;
+        cameras.push_back(camera);
+    }
+    for (Camera& camera : cameras) {
+        camera.half_width = half_width;
+        camera.half_height = half_height;
+    }
+    return cameras;
+}
+
 }  // namespace kinequad

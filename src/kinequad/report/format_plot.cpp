@@ -68,7 +68,7 @@ Axis axis_of(const Plot& plot) {
             high = std::max(high, value);
         }
     }
-    return low <= high ? value_axis(low, high, 6) : value_axis(0, 1, 6);
+    return low <= high ? value_axis(low, high, 8) : value_axis(0, 1, 8);
 }
 
 std::string format_plot(const Plot& plot, int index) {

@@ -1,6 +1,7 @@
 #include "kinequad/report/shade.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace kinequad::report_detail {
@@ -8,11 +9,6 @@ namespace {
 
 double linear_channel(double c) {
     return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
-double srgb_channel(double c) {
-    c = std::clamp(c, 0.0, 1.0);
-    return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
 }
 
 /// Diffuse light that reaches a little around the terminator, which keeps shadows soft.
@@ -24,7 +20,19 @@ double wrapped(double cosine, double wrap) {
 }  // namespace
 
 Vector3 linear_from_srgb(const Vector3& color) { return color.unaryExpr(&linear_channel); }
-Vector3 srgb_from_linear(const Vector3& color) { return color.unaryExpr(&srgb_channel); }
+
+std::uint8_t srgb_byte_from_linear(double channel) {
+    // Where one byte ends and the next begins: a search in a table is much quicker than a power.
+    static const std::array<double, 255> steps = [] {
+        std::array<double, 255> made{};
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            made[i] = linear_channel((static_cast<double>(i) + 0.5) / 255);
+        }
+        return made;
+    }();
+    return static_cast<std::uint8_t>(std::upper_bound(steps.begin(), steps.end(), channel) -
+                                     steps.begin());
+}
 
 Vector3 shade(const Vector3& albedo, const Vector3& normal) {
     static const Vector3 key = Vector3(-0.50, 0.62, 0.60).normalized();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <utility>
 
@@ -104,8 +105,21 @@ private:
 
     void carry(const ForeignMesh& mesh) {
         const auto points = bind_to_surface(mesh.X, reference_, source_.triangles(), context_);
+        warn_if_elsewhere(mesh, carried_positions(points, reference_, source_.triangles()));
         add({mesh.name, "A mesh that was given, carried by the nearest points of the input.", {}},
             follow_surface(mesh.faces, points, source_.triangles()));
+    }
+
+    /// A mesh in another pose is carried all the same, but what is measured then means nothing.
+    void warn_if_elsewhere(const ForeignMesh& mesh, const Positions& on_surface) const {
+        const double farthest = std::sqrt((mesh.X - on_surface).rowwise().squaredNorm().maxCoeff());
+        const double percent = 100 * farthest / bounding_box_diagonal(reference_);
+        if (!(percent > 3)) return;
+        context_.write_log(
+            LogLevel::warning,
+            fmt::format("{}: a vertex is {:.1f} % of the diagonal away from the input; is the mesh "
+                        "in the pose of --reference?",
+                        mesh.name, percent));
     }
 
     void add(ComparedMethod method, QuadSequence mesh) {

@@ -37,9 +37,11 @@ std::string Axis::label(double tick) const {
 Axis value_axis(double low, double high, int count) {
     Axis axis;
     if (low >= 0 && low < 0.5 * high) low = 0;
-    if (!(high > low)) {
-        const double room = std::max(std::abs(low) * 0.1, 1e-6);
-        low = low > 0 && low <= room ? 0 : low - room;
+    // Where all values are about the same, what differs is rounding.
+    const double size = std::max(std::abs(low), std::abs(high));
+    if (!(high - low > 1e-6 * size)) {
+        const double room = size > 0 ? 0.1 * size : 1;
+        low = size > 0 ? low - room : 0;
         high += room;
     }
     const double step = nice_step((high - low) / std::max(count - 1, 1));

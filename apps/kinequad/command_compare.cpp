@@ -11,6 +11,7 @@
 #include "input_options.h"
 #include "kinequad/core/error.h"
 #include "kinequad/io/files.h"
+#include "kinequad/io/frame_sink.h"
 #include "kinequad/io/read_polygon_mesh.h"
 #include "kinequad/pipeline/compare_methods.h"
 #include "kinequad/pipeline/make_report.h"
@@ -30,6 +31,7 @@ struct CompareCommand {
     std::string landmarks;
     std::string reference = "0";
     std::vector<std::string> also;
+    bool quads = false;
     bool json = false;
 };
 
@@ -39,6 +41,36 @@ ForeignMesh read_foreign(const std::string& argument) {
             InputFault::usage, fmt::format("--also {}: has to be NAME=FILE", argument));
     PolygonMesh mesh = read_polygon_mesh(argument.substr(equals + 1));
     return {argument.substr(0, equals), std::move(mesh.faces), std::move(mesh.V)};
+}
+
+/// A file name for the method `number` called `name`: letters and digits, others as dashes.
+std::string file_name(std::size_t number, const std::string& name) {
+    std::string text = fmt::format("{}-", number);
+    for (const char c : name) {
+        const bool is_plain =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        if (is_plain || text.back() != '-') text += is_plain ? c : '-';
+    }
+    while (text.size() > 1 && text.back() == '-') text.pop_back();
+    return text;
+}
+
+/// Writes the quads of every method in every frame to the subfolder `quads`.
+void write_quads(const ComparisonResult& result, const FrameSource& source, OutputFolder& output,
+                 const Context& context) {
+    const Positions rest =
+        source.has_rest_shape() ? source.read_rest_shape() : source.read_frame(0);
+    for (std::size_t i = 0; i < result.meshes.size(); ++i) {
+        const QuadSequence& mesh = result.meshes[i];
+        const auto sink = create_frame_sink(
+            output.path("quads"), file_name(i + 1, result.comparison.methods[i].name),
+            SequenceFormat::pc2, mesh.faces, source.frame_count(), mesh.read_frame(0, rest));
+        for (int frame = 0; frame < source.frame_count(); ++frame) {
+            context.report_progress("quads", static_cast<double>(frame) / source.frame_count());
+            sink->write_frame(frame, mesh.read_frame(frame, source.read_frame(frame)));
+        }
+        sink->finish();
+    }
 }
 
 void compare(const CompareCommand& command, Session& session) {
@@ -63,6 +95,8 @@ void compare(const CompareCommand& command, Session& session) {
     write_file_atomically(output.path("compare.json"), text);
     write_file_atomically(output.path("compare.csv"), format_comparison_csv(result.comparison));
     write_file_atomically(output.path("frames.csv"), format_frames_csv(result.comparison));
+    output.replace_earlier("quads");
+    if (command.quads) write_quads(result, *source, output, context);
     output.replace_earlier("report.html");
     if (command.report_options.is_wanted()) {
         write_file_atomically(output.path("report.html"), format_report(make_comparison_report(
@@ -113,6 +147,9 @@ void add_compare_command(CLI::App& program, Session& session) {
     app.add_option("--frame-step", command->measure.frame_step, "Measure every so many frames")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
+    app.add_flag("--quads", command->quads,
+                 "Write the quads of every method too, as OBJ with a PC2 cache, to the subfolder "
+                 "quads");
     app.add_flag("--json", command->json, "Print compare.json on stdout instead of the table");
     command->report_options.add_options(app);
     command->input_options.add_options(app);

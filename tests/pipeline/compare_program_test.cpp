@@ -32,8 +32,10 @@ TEST(CompareProgram, LeavesTableFramesAndReport) {
               0);
     ASSERT_FALSE(std::filesystem::exists(scratch / "mine" / "report.html"));
     ASSERT_EQ(run_program(scratch, "convert mine/quads pose.obj --frame 0 -q").code, 0);
-    const Outcome outcome = run_program(
-        scratch, "compare biped -o out --vertices 600 --also mine=pose.obj --pictures 1 -q");
+    const Outcome outcome =
+        run_program(scratch,
+                    "compare biped -o out --vertices 600 --also \"my mesh!=pose.obj\" "
+                    "--pictures 1 --quads -q");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     const auto json = nlohmann::json::parse(content_of(scratch / "out" / "compare.json"));
@@ -46,6 +48,8 @@ TEST(CompareProgram, LeavesTableFramesAndReport) {
         EXPECT_TRUE(method["symmetry_error_degrees"].is_number());
     }
     EXPECT_TRUE(json["methods"][4]["cpu_seconds"].is_null());
+    EXPECT_TRUE(std::filesystem::exists(scratch / "out" / "quads" / "2-animation-only.pc2"));
+    EXPECT_TRUE(std::filesystem::exists(scratch / "out" / "quads" / "5-my-mesh.obj"));
     const std::string csv = content_of(scratch / "out" / "compare.csv");
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6);
     const std::string frames = content_of(scratch / "out" / "frames.csv");

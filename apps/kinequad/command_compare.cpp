@@ -83,7 +83,10 @@ void compare(const CompareCommand& command, Session& session) {
     ComparisonOptions options;
     options.reference = base.reference;
     options.measure = command.measure;
-    if (!command.landmarks.empty()) options.landmarks = read_landmarks(command.landmarks);
+    if (!command.landmarks.empty()) {
+        options.landmarks = read_landmarks(command.landmarks);
+        require_landmarks_fit(*options.landmarks, source->vertex_count(), command.landmarks);
+    }
     options.recipes = comparison_recipes(base, options.landmarks.has_value());
     for (const std::string& argument : command.also) {
         options.foreign.push_back(read_foreign(argument));

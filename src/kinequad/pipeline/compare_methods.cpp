@@ -42,11 +42,12 @@ Context named_context(const Context& context, const std::string& name) {
 
 /// The symmetry map that all meshes are measured with; empty where there is none.
 std::optional<SymmetryMap> find_measuring_map(const FrameSource& source,
+                                              const IntrinsicMetric& metric,
                                               const std::optional<Landmarks>& landmarks,
                                               const Positions& reference, const Context& context) {
-    if (landmarks) return find_symmetry(source, landmarks, reference, context).map;
+    if (landmarks) return find_symmetry(source, metric, landmarks, reference, context).map;
     try {
-        return find_symmetry(source, landmarks, reference, context).map;
+        return find_symmetry(source, metric, landmarks, reference, context).map;
     } catch (const InputError& error) {
         context.write_log(LogLevel::info, fmt::format("no symmetry error: {}", error.what()));
     } catch (const VerificationError& error) {
@@ -79,7 +80,7 @@ private:
     void make(const ComparedRecipe& recipe) {
         try {
             const Context context = named_context(context_, recipe.name);
-            Result made = quadrangulate(source_, recipe.options, context);
+            Result made = quadrangulate(source_, options_.landmarks, recipe.options, context);
             if (recipe.is_baseline) {
                 result_.comparison.baseline = static_cast<int>(result_.meshes.size());
             }
@@ -138,13 +139,12 @@ private:
     void measure() {
         topology_ = build_topology(source_.triangles(), source_.vertex_count());
         std::vector<ComparedMethod>& methods = result_.comparison.methods;
-        const auto map = find_measuring_map(source_, options_.landmarks, reference_, context_);
-        if (map) {
-            const IntrinsicMetric mean = compute_mean_metric(source_, topology_, context_);
-            for (std::size_t i = 0; i < methods.size(); ++i) {
-                methods[i].symmetry_error_degrees =
-                    measure_symmetry_error(quads_over_reference(i, mean), *map, context_);
-            }
+        const IntrinsicMetric mean = compute_mean_metric(source_, topology_, context_);
+        const std::optional<SymmetryMap> map =
+            find_measuring_map(source_, mean, options_.landmarks, reference_, context_);
+        for (std::size_t i = 0; map && i < methods.size(); ++i) {
+            methods[i].symmetry_error_degrees =
+                measure_symmetry_error(quads_over_reference(i, mean), *map, context_);
         }
         const IntrinsicMetric rest = metric_of(topology_, reference_);
         std::vector<MeasuredQuads> measured;
@@ -170,9 +170,6 @@ private:
 }  // namespace
 
 std::vector<ComparedRecipe> comparison_recipes(const Options& base, bool has_landmarks) {
-    // Symmetry joins the last two where there are landmarks.
-    static_cast<void>(has_landmarks);
-
     // What the paper has: its energy and solver, the lengths of one frame, vertices where the map
     // puts them.
     Options paper = base;
@@ -181,8 +178,12 @@ std::vector<ComparedRecipe> comparison_recipes(const Options& base, bool has_lan
     paper.feature_angle = 0;
     paper.relax_rounds = 0;
     paper.alpha = default_alpha(CrossFieldMethod::paper);
+    paper.symmetry = has_landmarks ? SymmetryMode::field : SymmetryMode::none;
 
-    Options single_pose = paper;
+    Options animation_only = paper;
+    animation_only.symmetry = SymmetryMode::none;
+
+    Options single_pose = animation_only;
     single_pose.alpha = 0;
 
     return {
@@ -191,7 +192,7 @@ std::vector<ComparedRecipe> comparison_recipes(const Options& base, bool has_lan
          single_pose},
         {"animation only",
          "The paper's baseline: its energy with the stretch of all frames, without symmetry.",
-         paper, true},
+         animation_only, true},
         {"paper", "The method of Du and Tu to the letter.", paper},
         {"kinequad", "Kinequad with its defaults.", base}};
 }

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "kinequad/deformation/compute_mean_metric.h"
+#include "kinequad/measure/symmetry_error.h"
 #include "kinequad/pipeline/run_record.h"
 #include "kinequad/pipeline/version.h"
 
@@ -100,6 +102,18 @@ ReportTable wall_and_cpu_times(const std::vector<StageTime>& times) {
     return table;
 }
 
+/// Error of the quads against the symmetry that the run made use of.
+double symmetry_error_of(const Result& result, const QuadSequence& quads, const FrameSource& source,
+                         const Context& context) {
+    const IntrinsicMetric metric = result.options.metric == MetricChoice::reference
+                                       ? metric_of(result.topology, result.reference)
+                                       : compute_mean_metric(source, result.topology, context);
+    const StretchReference reference{result.reference, source.triangles(),
+                                     triangle_sides(result.topology, metric),
+                                     quads.read_frame(0, result.reference), quads.faces};
+    return measure_symmetry_error(reference, result.symmetry->map, context);
+}
+
 }  // namespace
 
 Report make_run_report(const Result& result, const FrameSource& source, const std::string& digest,
@@ -123,6 +137,9 @@ Report make_run_report(const Result& result, const FrameSource& source, const st
     method.metrics.quads = count_mesh(quads.faces, static_cast<int>(result.quads.vertex.size()));
     method.metrics.stretch_alignment_degrees = ComparedMethod::unknown;
     if (metrics) method.metrics = *metrics;
+    if (metrics && result.symmetry) {
+        method.symmetry_error_degrees = symmetry_error_of(result, quads, source, context);
+    }
     method.cpu_seconds = 0;
     for (const StageTime& time : result.times) {
         if (time.stage != "metrics") method.cpu_seconds += time.cpu_seconds;

@@ -120,7 +120,7 @@ TEST(AgainstCgal, AnglesAndScaledJacobiansAgree) {
 #else
 
 TEST(AgainstCgal, DistancesAndAnglesAgree) {
-    GTEST_SKIP() << "CGAL is not installed; install libcgal-dev to compare with it";
+    GTEST_SKIP() << "this build goes without CGAL; install libcgal-dev to compare with it";
 }
 
 #endif

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "kinequad/core/error.h"
 
@@ -55,16 +56,16 @@ Camera fit_camera(const Positions& V, const Viewpoint& viewpoint) {
 Camera unite_cameras(const Camera& a, const Camera& b) {
     Camera camera = a;
     const Vector3 between = b.center - a.center;
-    // One axis of the picture: from the low end of both to the high end.
-    const auto unite = [&](const Vector3& axis, double half_a, double half_b, double& half) {
+    // Along an axis of the picture, counted from the middle of `a`: [low, high].
+    const auto range_along = [&](const Vector3& axis, double half_a, double half_b) {
         const double offset = between.dot(axis);
-        const double low = std::min(-half_a, offset - half_b);
-        const double high = std::max(half_a, offset + half_b);
-        half = 0.5 * (high - low);
-        camera.center += 0.5 * (low + high) * axis;
+        return std::pair(std::min(-half_a, offset - half_b), std::max(half_a, offset + half_b));
     };
-    unite(a.right, a.half_width, b.half_width, camera.half_width);
-    unite(a.up, a.half_height, b.half_height, camera.half_height);
+    const auto [left, right] = range_along(a.right, a.half_width, b.half_width);
+    const auto [bottom, top] = range_along(a.up, a.half_height, b.half_height);
+    camera.center += 0.5 * (left + right) * a.right + 0.5 * (bottom + top) * a.up;
+    camera.half_width = 0.5 * (right - left);
+    camera.half_height = 0.5 * (top - bottom);
     return camera;
 }
 

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
 #include "kinequad/measure/format_metrics.h"
 #include "kinequad/report/encode_base64.h"

@@ -65,11 +65,15 @@ std::vector<DrawnInput> open_inputs(const RenderCommand& command) {
     return inputs;
 }
 
-RenderOptions options_of(const RenderCommand& command) {
+/// For a picture with panels in `columns` and `rows`, where dots are as large as a panel bears.
+RenderOptions options_of(const RenderCommand& command, std::size_t columns, std::size_t rows) {
     RenderOptions options;
     options.width = command.size[0];
     options.height = command.size[1];
     options.draw_edges = !command.plain;
+    const double panel = std::min(options.width / static_cast<double>(columns),
+                                  options.height / static_cast<double>(rows));
+    options.marker_radius = std::clamp(panel / 160, 2.5, 6.0);
     return options;
 }
 
@@ -104,15 +108,16 @@ void render_still(const RenderCommand& command, const Context& context) {
     for (const DrawnInput& input : inputs) {
         for (const int frame : command.frames) panels.push_back(input.panel(frame, camera));
     }
-    write_png(command.output, render_panels(panels, static_cast<int>(command.frames.size()),
-                                            options_of(command), context));
+    write_png(command.output,
+              render_panels(panels, static_cast<int>(command.frames.size()),
+                            options_of(command, command.frames.size(), inputs.size()), context));
 }
 
 /// The pictures of a film one after the other, the meshes of each side by side.
 void write_pictures(const RenderCommand& command, int count, const Context& context,
                     const std::function<std::vector<RenderPanel>(int picture)>& panels_of) {
     OutputFolder output(command.output);
-    const RenderOptions options = options_of(command);
+    const RenderOptions options = options_of(command, command.inputs.size(), 1);
     for (int picture = 0; picture < count; ++picture) {
         context.report_progress("pictures", static_cast<double>(picture) / count);
         const std::vector<RenderPanel> panels = panels_of(picture);
@@ -136,6 +141,7 @@ void render_turntable(const RenderCommand& command, const Context& context) {
     const std::vector<Camera> cameras =
         turntable_cameras(all, command.viewpoint(), command.turntable);
     std::vector<RenderPanel> panels;
+    panels.reserve(inputs.size());
     for (const DrawnInput& input : inputs) panels.push_back(input.panel(frame, cameras.front()));
     write_pictures(command, command.turntable, context, [&](int picture) {
         for (RenderPanel& panel : panels) panel.camera = cameras[static_cast<std::size_t>(picture)];
@@ -152,6 +158,7 @@ void render_animation(const RenderCommand& command, const Context& context) {
     const Camera camera = common_camera(inputs, frames, command.viewpoint(), context);
     write_pictures(command, static_cast<int>(frames.size()), context, [&](int picture) {
         std::vector<RenderPanel> panels;
+        panels.reserve(inputs.size());
         for (const DrawnInput& input : inputs) {
             panels.push_back(input.panel(frames[static_cast<std::size_t>(picture)], camera));
         }

@@ -29,6 +29,7 @@ open_page() { # name, options: leaves $work/dom and $work/log
     local profile="$work/profile-$1"
     timeout 120 "$browser" --headless --no-sandbox --disable-gpu --disable-quic --no-first-run \
         --disable-background-networking --disable-component-update --disable-sync \
+        --disable-dev-shm-usage \
         --allow-file-access-from-files --enable-logging=stderr --virtual-time-budget=20000 \
         --user-data-dir="$profile" "${@:2}" >"$work/dom" 2>"$work/log"
     rm -rf "$profile"

@@ -39,7 +39,8 @@ Json field_record(const Result& result) {
     std::map<int, int> vertices_of_index;
     std::map<int, int> corners_of_index;
     int singularities = 0;
-    for (const Singularity& singularity : list_singularities(result.domain.topology, result.field)) {
+    for (const Singularity& singularity :
+         list_singularities(result.domain.topology, result.field)) {
         ++(singularity.boundary ? corners_of_index : vertices_of_index)[singularity.index];
         singularities += singularity.boundary ? 0 : 1;
     }

@@ -62,6 +62,7 @@ std::vector<ReportPictures> draw_sequences(const FrameSource& input,
         half_height = std::max(half_height, cameras.back().half_height);
     }
     std::vector<ReportPictures> pictures;
+    pictures.reserve(frames.size());
     for (const int frame : frames) pictures.push_back({frame, {}});
     for (std::size_t s = 0; s < sequences.size(); ++s) {
         const DrawnSequence& sequence = sequences[s];

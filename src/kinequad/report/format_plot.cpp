@@ -29,10 +29,11 @@ std::vector<std::string> polylines(const Plot::Line& line, const Axis& axis) {
         const double y = side * (1 - axis.place(line.values[i]));
         const std::string point = fmt::format("{:.1f},{:.1f}", x, y);
         if (is_open) {
-            runs.back() += ' ' + point;
+            runs.back() += ' ';
+            runs.back() += point;
         } else {
             // A single point is drawn as the round end of a line without length.
-            runs.push_back(point + ' ' + point);
+            runs.push_back(fmt::format("{0} {0}", point));
         }
         is_open = true;
     }

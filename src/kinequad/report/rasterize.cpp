@@ -45,7 +45,8 @@ Range cells_between(double low, double high, double size, int count) {
 template <class Boxes>
 void sort_boxes(std::size_t count, const TileLists& tiles, const Boxes& box,
                 std::vector<std::size_t>& begin, std::vector<int>& list) {
-    const auto tile_count = static_cast<std::size_t>(tiles.columns * tiles.rows);
+    const std::size_t tile_count =
+        static_cast<std::size_t>(tiles.columns) * static_cast<std::size_t>(tiles.rows);
     begin.assign(tile_count + 1, 0);
     const auto for_tiles = [&](std::size_t i, const auto& visit) {
         const Box b = box(i);
@@ -53,7 +54,8 @@ void sort_boxes(std::size_t count, const TileLists& tiles, const Boxes& box,
         const Range y = cells_between(b.low_y, b.high_y, tiles.size, tiles.rows);
         for (int row = y.first; row <= y.last; ++row) {
             for (int column = x.first; column <= x.last; ++column) {
-                visit(static_cast<std::size_t>(row * tiles.columns + column));
+                visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(tiles.columns) +
+                      static_cast<std::size_t>(column));
             }
         }
     };
@@ -238,7 +240,8 @@ TileLists sort_into_tiles(const ScreenScene& scene) {
 }
 
 std::vector<Hit> rasterize_tile(const ScreenScene& scene, const TileLists& tiles, int tile) {
-    const auto count = static_cast<std::size_t>(tiles.size * tiles.size * sample_count);
+    const auto size = static_cast<std::size_t>(tiles.size);
+    const std::size_t count = size * size * sample_count;
     Samples samples{std::vector<float>(count, -std::numeric_limits<float>::infinity()),
                     std::vector<Hit>(count)};
     const auto at = static_cast<std::size_t>(tile);

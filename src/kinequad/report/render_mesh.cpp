@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "kinequad/core/error.h"
@@ -218,9 +219,7 @@ Prepared prepare(const RenderScene& scene, const Camera& camera, const RenderOpt
 class TilePainter {
 public:
     TilePainter(const RenderScene& scene, const RenderOptions& options, const Prepared& prepared)
-        : scene_(scene),
-          options_(options),
-          prepared_(prepared),
+        : prepared_(prepared),
           surface_(linear_from_srgb(options.surface_color)),
           line_(linear_from_srgb(options.edge_color)) {
         for (int y = 0; y < options.height; ++y) {
@@ -303,8 +302,6 @@ private:
         return shade(albedo, normal);
     }
 
-    const RenderScene& scene_;
-    const RenderOptions& options_;
     const Prepared& prepared_;
     Vector3 surface_;
     Vector3 line_;
@@ -344,15 +341,14 @@ Image render_mesh(const RenderScene& scene, const Camera& camera, const RenderOp
         const auto hits = is_empty ? std::vector<Hit>()
                                    : rasterize_tile(prepared.screen, tiles, static_cast<int>(tile));
         for (int y = y0; y < std::min(y0 + tiles.size, image.height); ++y) {
-            for (int x = x0; x < std::min(x0 + tiles.size, image.width); ++x) {
-                const auto first =
-                    static_cast<std::size_t>(((y - y0) * tiles.size + (x - x0)) * sample_count);
-                paint(x, y,
-                      is_empty ? painter.background(y) : painter.pixel(hits.data() + first, x, y));
+            auto hit = static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(tiles.size) *
+                       sample_count;
+            for (int x = x0; x < std::min(x0 + tiles.size, image.width); ++x, hit += sample_count) {
+                paint(x, y, is_empty ? painter.background(y) : painter.pixel(&hits[hit], x, y));
             }
         }
     };
-    parallel_for(static_cast<std::size_t>(tiles.columns * tiles.rows), 4, context,
+    parallel_for(tiles.triangle_begin.size() - 1, 4, context,
                  [&](std::size_t begin, std::size_t end) {
                      for (std::size_t tile = begin; tile < end; ++tile) paint_tile(tile);
                  });

@@ -43,7 +43,7 @@ std::uint8_t srgb_byte_from_linear(double channel) {
         }
         return made;
     }();
-    const double light = std::clamp(channel, 0.0, 1.0);
+    const double light = channel > 0 ? std::min(channel, 1.0) : 0.0;  // 0 for what is no number
     std::uint8_t byte = table.first[static_cast<std::size_t>(light * parts)];
     while (table.end[byte] <= light) ++byte;
     return byte;

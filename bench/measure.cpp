@@ -60,7 +60,8 @@ void measure_distance_of_a_frame(benchmark::State& state) {
         const TriangleMesh quads = as_triangles(rippled_torus(115, 45, phase));
         phase += 0.05;
         state.ResumeTiming();
-        benchmark::DoNotOptimize(meter.measure(input, quads, single_thread()));
+        benchmark::DoNotOptimize(
+            meter.measure(ClosestPoints(input.V, input.F), quads, single_thread()));
     }
 }
 

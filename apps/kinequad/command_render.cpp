@@ -1,16 +1,22 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "commands.h"
 #include "input_options.h"
 #include "kinequad/core/error.h"
+#include "kinequad/io/files.h"
+#include "kinequad/report/drawable_polygons.h"
 #include "kinequad/report/render_mesh.h"
 #include "kinequad/report/render_panels.h"
 #include "kinequad/report/write_png.h"
+#include "output_folder.h"
 
 namespace kinequad::app {
 namespace {
@@ -22,71 +28,157 @@ struct RenderCommand {
     std::vector<int> frames = {0};
     std::string view = "quarter";
     std::string up = "y";
-    std::vector<int> size = {1600, 1200};
+    std::vector<int> size = {1920, 1080};
+    int turntable = 0;
+    bool animation = false;
+    int frame_step = 1;
     bool plain = false;
     bool no_markers = false;
+
+    Viewpoint viewpoint() const { return named_viewpoint(view, up == "z" ? UpAxis::z : UpAxis::y); }
 };
 
-/// The faces as rows of four where all have at most four corners, else cut into triangles.
-Quads drawable_polygons(const FrameSource& source) {
-    const Polygons faces = source.polygons();
-    Quads rows(faces.count(), 4);
-    for (int f = 0; f < faces.count(); ++f) {
-        const auto corners = faces[f];
-        if (corners.size() > 4) return polygons_of(source.triangles());
-        rows(f, 3) = -1;
-        for (std::size_t k = 0; k < corners.size(); ++k) rows(f, static_cast<int>(k)) = corners[k];
-    }
-    return rows;
-}
+/// A mesh or sequence to be drawn: what is the same in all of its frames.
+struct DrawnInput {
+    std::unique_ptr<FrameSource> source;
+    RenderScene scene;  ///< without positions
 
-/// One panel a frame of one input, without its camera yet.
-std::vector<RenderPanel> make_panels(const RenderCommand& command, const std::string& input) {
-    const std::unique_ptr<FrameSource> source = command.input_options.open(input);
-    const Quads polygons = drawable_polygons(*source);
-    const bool all_quads = (polygons.col(3).array() >= 0).all();
-    std::vector<RenderPanel> panels;
-    for (const int frame : command.frames) {
-        require(frame < source->frame_count(), InputFault::usage,
-                fmt::format("--frame {}: {} has frames 0 to {}", frame, input,
-                            source->frame_count() - 1));
-        RenderPanel& panel = panels.emplace_back();
-        panel.scene.V = source->read_frame(frame);
-        panel.scene.polygons = polygons;
-        if (all_quads && !command.no_markers) {
-            panel.scene.markers = mark_irregular_vertices(polygons, source->vertex_count());
+    RenderPanel panel(int frame, const Camera& camera) const {
+        RenderPanel result{scene, camera, ""};
+        result.scene.V = source->read_frame(frame);
+        return result;
+    }
+};
+
+std::vector<DrawnInput> open_inputs(const RenderCommand& command) {
+    std::vector<DrawnInput> inputs;
+    for (const std::string& name : command.inputs) {
+        DrawnInput& input = inputs.emplace_back();
+        input.source = command.input_options.open(name);
+        const Polygons faces = input.source->polygons();
+        input.scene.polygons = drawable_polygons(faces);
+        if (all_faces_have(faces, 4) && !command.no_markers) {
+            input.scene.markers =
+                mark_irregular_vertices(input.scene.polygons, input.source->vertex_count());
         }
     }
-    return panels;
+    return inputs;
 }
 
-/// One camera for all panels, so that they can be compared.
-Camera common_camera(const std::vector<RenderPanel>& panels, const RenderCommand& command) {
-    Eigen::Index rows = 0;
-    for (const RenderPanel& panel : panels) rows += panel.scene.V.rows();
-    Positions all(rows, 3);
-    rows = 0;
-    for (const RenderPanel& panel : panels) {
-        all.middleRows(rows, panel.scene.V.rows()) = panel.scene.V;
-        rows += panel.scene.V.rows();
-    }
-    return fit_camera(all,
-                      named_viewpoint(command.view, command.up == "z" ? UpAxis::z : UpAxis::y));
-}
-
-void render(const RenderCommand& command, const Context& context) {
-    std::vector<RenderPanel> panels;
-    for (const std::string& input : command.inputs) {
-        for (RenderPanel& panel : make_panels(command, input)) panels.push_back(std::move(panel));
-    }
-    const Camera camera = common_camera(panels, command);
-    for (RenderPanel& panel : panels) panel.camera = camera;
+/// For a picture with panels in `columns` and `rows`, where dots are as large as a panel bears.
+RenderOptions options_of(const RenderCommand& command, std::size_t columns, std::size_t rows) {
     RenderOptions options;
     options.width = command.size[0];
     options.height = command.size[1];
     options.draw_edges = !command.plain;
+    const double panel = std::min(options.width / static_cast<double>(columns),
+                                  options.height / static_cast<double>(rows));
+    options.marker_radius = std::clamp(panel / 160, 2.5, 6.0);
+    return options;
+}
+
+void require_frame(const DrawnInput& input, int frame) {
+    require(frame < input.source->frame_count(), InputFault::usage,
+            fmt::format("--frame {}: {} has frames 0 to {}", frame, input.source->name(),
+                        input.source->frame_count() - 1));
+}
+
+/// One camera for all panels, so that they can be compared.
+Camera common_camera(const std::vector<DrawnInput>& inputs, const std::vector<int>& frames,
+                     const Viewpoint& viewpoint, const Context& context) {
+    std::optional<Camera> camera;
+    for (const DrawnInput& input : inputs) {
+        for (const int frame : frames) {
+            context.check_cancelled();
+            const Camera own = fit_camera(input.source->read_frame(frame), viewpoint);
+            camera = camera ? unite_cameras(*camera, own) : own;
+        }
+    }
+    return *camera;
+}
+
+/// One picture: a row a mesh, a column a frame.
+void render_still(const RenderCommand& command, const Context& context) {
+    const std::vector<DrawnInput> inputs = open_inputs(command);
+    for (const DrawnInput& input : inputs) {
+        for (const int frame : command.frames) require_frame(input, frame);
+    }
+    const Camera camera = common_camera(inputs, command.frames, command.viewpoint(), context);
+    std::vector<RenderPanel> panels;
+    for (const DrawnInput& input : inputs) {
+        for (const int frame : command.frames) panels.push_back(input.panel(frame, camera));
+    }
     write_png(command.output,
-              render_panels(panels, static_cast<int>(command.frames.size()), options, context));
+              render_panels(panels, static_cast<int>(command.frames.size()),
+                            options_of(command, command.frames.size(), inputs.size()), context));
+}
+
+/// The pictures of a film one after the other, the meshes of each side by side.
+void write_pictures(const RenderCommand& command, int count, const Context& context,
+                    const std::function<std::vector<RenderPanel>(int picture)>& panels_of) {
+    OutputFolder output(command.output);
+    const RenderOptions options = options_of(command, command.inputs.size(), 1);
+    for (int picture = 0; picture < count; ++picture) {
+        context.report_progress("pictures", static_cast<double>(picture) / count);
+        const std::vector<RenderPanel> panels = panels_of(picture);
+        write_png(output.path(fmt::format("picture_{:04}.png", picture)),
+                  render_panels(panels, static_cast<int>(panels.size()), options, context));
+    }
+    context.check_cancelled();
+    output.commit();
+}
+
+void render_turntable(const RenderCommand& command, const Context& context) {
+    const std::vector<DrawnInput> inputs = open_inputs(command);
+    const int frame = command.frames.front();
+    Positions all(0, 3);
+    for (const DrawnInput& input : inputs) {
+        require_frame(input, frame);
+        const Positions V = input.source->read_frame(frame);
+        all.conservativeResize(all.rows() + V.rows(), 3);
+        all.bottomRows(V.rows()) = V;
+    }
+    const std::vector<Camera> cameras =
+        turntable_cameras(all, command.viewpoint(), command.turntable);
+    std::vector<RenderPanel> panels;
+    panels.reserve(inputs.size());
+    for (const DrawnInput& input : inputs) panels.push_back(input.panel(frame, cameras.front()));
+    write_pictures(command, command.turntable, context, [&](int picture) {
+        for (RenderPanel& panel : panels) panel.camera = cameras[static_cast<std::size_t>(picture)];
+        return panels;
+    });
+}
+
+void render_animation(const RenderCommand& command, const Context& context) {
+    const std::vector<DrawnInput> inputs = open_inputs(command);
+    int count = inputs.front().source->frame_count();
+    for (const DrawnInput& input : inputs) count = std::min(count, input.source->frame_count());
+    std::vector<int> frames;
+    for (int frame = 0; frame < count; frame += command.frame_step) frames.push_back(frame);
+    const Camera camera = common_camera(inputs, frames, command.viewpoint(), context);
+    write_pictures(command, static_cast<int>(frames.size()), context, [&](int picture) {
+        std::vector<RenderPanel> panels;
+        panels.reserve(inputs.size());
+        for (const DrawnInput& input : inputs) {
+            panels.push_back(input.panel(frames[static_cast<std::size_t>(picture)], camera));
+        }
+        return panels;
+    });
+}
+
+void render(const RenderCommand& command, const Context& context) {
+    const bool is_picture = extension_of(command.output) == ".png";
+    if (command.turntable > 0 || command.animation) {
+        require(!is_picture, InputFault::usage,
+                fmt::format("-o {}: several pictures need a folder", command.output));
+        if (command.animation) return render_animation(command, context);
+        return render_turntable(command, context);
+    }
+    require(is_picture, InputFault::usage,
+            fmt::format("-o {}: a picture has to be called FILE.png; for a folder of pictures "
+                        "give --turntable or --animation",
+                        command.output));
+    render_still(command, context);
 }
 
 }  // namespace
@@ -95,9 +187,13 @@ void add_render_command(CLI::App& program, Session& session) {
     const auto command = std::make_shared<RenderCommand>();
     CLI::App& app = *program.add_subcommand(
         "render",
-        "Draws meshes or frames of sequences as a PNG picture: a row a mesh, a column a frame");
+        "Draws meshes or frames of sequences as a PNG picture: a row a mesh, a column a frame; or "
+        "as the numbered pictures of a film");
     app.add_option("MESH", command->inputs, "Meshes or sequences, as the INPUT of run")->required();
-    app.add_option("-o,--output", command->output, "The picture, FILE.png")->required();
+    app.add_option("-o,--output", command->output,
+                   "The picture, FILE.png; with --turntable or --animation a folder for "
+                   "picture_0000.png, picture_0001.png, ...")
+        ->required();
     app.add_option("--frame", command->frames, "Frames to draw, counted from 0, as 0,12,24")
         ->delimiter(',')
         ->check(CLI::NonNegativeNumber)
@@ -108,11 +204,23 @@ void add_render_command(CLI::App& program, Session& session) {
     app.add_option("--up", command->up, "Axis of the data that points up in the picture: y or z")
         ->check(CLI::IsMember({"y", "z"}))
         ->capture_default_str();
-    app.add_option("--size", command->size,
-                   "Width and height of the picture in pixels, as 1600,1200")
+    app.add_option("--size", command->size, "Width and height of a picture in pixels, as 1920,1080")
         ->delimiter(',')
         ->expected(2)
         ->check(CLI::Range(16, 16384))
+        ->capture_default_str();
+    CLI::Option* turntable =
+        app.add_option("--turntable", command->turntable,
+                       "As many pictures of one frame, once around the up axis, the meshes side by "
+                       "side")
+            ->check(CLI::Range(1, 100'000));
+    CLI::Option* animation =
+        app.add_flag("--animation", command->animation,
+                     "A picture for every frame, the meshes side by side, from one place")
+            ->excludes(turntable);
+    app.add_option("--frame-step", command->frame_step, "With --animation: every so many frames")
+        ->needs(animation)
+        ->check(CLI::PositiveNumber)
         ->capture_default_str();
     app.add_flag("--plain", command->plain, "Do not draw the edges");
     app.add_flag(

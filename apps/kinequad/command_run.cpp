@@ -19,18 +19,21 @@
 #include "kinequad/measure/measure_sequence.h"
 #include "kinequad/pipeline/check_input.h"
 #include "kinequad/pipeline/dump_stage.h"
+#include "kinequad/pipeline/make_report.h"
 #include "kinequad/pipeline/quadrangulate.h"
 #include "kinequad/pipeline/run_record.h"
 #include "kinequad/pipeline/write_quad_frames.h"
 #include "kinequad/transfer/transfer.h"
 #include "output_folder.h"
 #include "print_summary.h"
+#include "report_options.h"
 
 namespace kinequad::app {
 namespace {
 
 struct RunCommand {
     InputOptions input_options;
+    ReportOptions report_options;
     Options options;
     std::string input;
     std::string output;
@@ -128,6 +131,7 @@ void run(const RunCommand& command, Session& session) {
     const FrameSource* const source = repaired ? repaired.get() : input.get();
     if (command.check) return check(command, *source, session, context);
     require(!command.output.empty(), InputFault::usage, "--output is required; give -o FOLDER");
+    const PictureOptions pictures = command.report_options.pictures(source->frame_count());
     OutputFolder output(command.output);
     clock.finish_stage("open", opening);
 
@@ -161,6 +165,12 @@ void run(const RunCommand& command, Session& session) {
     if (result.options.metrics) {
         metrics = measure(result, *source, context);
         clock.finish_stage("metrics", result.times);
+    }
+    output.replace_earlier("report.html");
+    if (command.report_options.is_wanted()) {
+        const Report report = make_run_report(result, *source, digest, metrics, pictures, context);
+        write_file_atomically(output.path("report.html"), format_report(report));
+        clock.finish_stage("report", result.times);
     }
     nlohmann::ordered_json record = make_run_record(result, *source, digest, metrics);
     if (repaired) record["input"]["repaired"] = repaired->actions();
@@ -240,7 +250,8 @@ void add_run_command(CLI::App& program, Session& session) {
         ->required();
     app.add_option(
         "-o,--output", command->output,
-        "Folder for the quad sequence, run.json and binding.json; made where it is absent");
+        "Folder for the quad sequence, run.json, binding.json and report.html; made where it is "
+        "absent");
     app.add_flag("--check", command->check,
                  "Only check the mesh: print what is wrong or remarkable, with element numbers (as "
                  "JSON with --json)");
@@ -258,6 +269,7 @@ void add_run_command(CLI::App& program, Session& session) {
     app.add_flag("--json", command->json, "Print run.json on stdout instead of the summary");
     app.add_option("--dump-stages", command->dump_directory,
                    "Folder for what each stage made, as JSON, for inspection");
+    command->report_options.add_options(app);
     command->input_options.add_options(app);
     session.add_options(app);
     app.callback([command, &session] { run(*command, session); });

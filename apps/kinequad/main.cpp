@@ -42,6 +42,7 @@ int run_program(int argc, char** argv) {
     program.require_subcommand(1);
     program.footer(exit_codes);
     add_run_command(program, session);
+    add_compare_command(program, session);
     add_measure_command(program, session);
     add_synth_command(program, session);
     add_render_command(program, session);

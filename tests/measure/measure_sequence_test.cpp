@@ -75,6 +75,25 @@ TEST(MeasureSequence, FollowsAStretchOfTheInput) {
     EXPECT_TRUE(to_json(m).at("hausdorff_percent").is_null());
 }
 
+TEST(MeasureSequence, MeasuresSeveralMeshesAsIfEachWereAlone) {
+    const MemorySequence input = rising_square(4);
+    const std::vector<QuadSequence> grids = {follow_grid(input, 5), follow_grid(input, 9)};
+    const Topology topology = build_topology(input.triangles(), input.vertex_count());
+    const Positions V = input.read_frame(0);
+    std::vector<MeasuredQuads> meshes;
+    for (const QuadSequence& grid : grids) {
+        meshes.push_back({grid, StretchReference{V, input.triangles(),
+                                                 triangle_sides(topology, metric_of(topology, V)),
+                                                 grid.read_frame(0, V), grid.faces}});
+    }
+    const std::vector<SequenceMetrics> together = measure_sequences(input, meshes);
+    ASSERT_EQ(together.size(), 2u);
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const SequenceMetrics alone = measure_sequence(input, meshes[i].quads, meshes[i].reference);
+        EXPECT_EQ(to_json(together[i]).dump(), to_json(alone).dump());
+    }
+}
+
 TEST(MeasureSequence, MeasuresEveryKthFrame) {
     const MemorySequence input = rising_square(7);
     MeasureOptions options;

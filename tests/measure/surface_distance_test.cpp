@@ -211,8 +211,9 @@ TEST(SurfaceDistance, DoesNotDependOnThreadsOrOnTheFramesBefore) {
         Context context;
         context.threads = threads;
         SurfaceDistanceMeter meter;
-        meter.measure(scaled(a, 2), moved(b, {0.1, 0, 0}), context);
-        const SurfaceDistance again = meter.measure(a, b, context);
+        const TriangleMesh larger = scaled(a, 2);
+        meter.measure(ClosestPoints(larger.V, larger.F), moved(b, {0.1, 0, 0}), context);
+        const SurfaceDistance again = meter.measure(ClosestPoints(a.V, a.F), b, context);
         for (const auto side :
              {&SurfaceDistance::quads_to_input, &SurfaceDistance::input_to_quads}) {
             EXPECT_EQ((alone.*side).hausdorff_percent, (again.*side).hausdorff_percent);

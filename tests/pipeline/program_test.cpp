@@ -50,8 +50,9 @@ std::vector<std::string> names_in(const std::filesystem::path& folder) {
 
 TEST(Program, ExplainsItself) {
     const ScratchFolder scratch;
-    for (const char* arguments : {"--help", "run --help", "measure --help", "synth --help",
-                                  "render --help", "convert --help", "symmetry --help"}) {
+    for (const char* arguments :
+         {"--help", "run --help", "compare --help", "measure --help", "synth --help",
+          "render --help", "convert --help", "symmetry --help"}) {
         const Outcome outcome = run_program(scratch, arguments);
         EXPECT_EQ(outcome.code, 0) << arguments;
         EXPECT_NE(outcome.out.find("--help"), std::string::npos) << arguments;
@@ -160,7 +161,8 @@ TEST(Program, RunLeavesTheSequenceItsRecordAndTheBinding) {
     const Outcome outcome = run_program(scratch, "run biped -o out --vertices 800 --json");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(names_in(scratch / "out"),
-              (std::vector<std::string>{"binding.json", "quads.obj", "quads.pc2", "run.json"}));
+              (std::vector<std::string>{"binding.json", "quads.obj", "quads.pc2", "report.html",
+                                        "run.json"}));
     EXPECT_EQ(outcome.out, content_of(scratch / "out" / "run.json"));
     const auto record = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(record["input"]["frames"], 4);
@@ -188,7 +190,7 @@ TEST(Program, RunWritesOtherFormatsOverEarlierOnes) {
     ASSERT_EQ(run_program(scratch, run).code, 0);
     ASSERT_EQ(run_program(scratch, run + " --format obj").code, 0);
     EXPECT_EQ(names_in(scratch / "out"),
-              (std::vector<std::string>{"binding.json", "quads", "run.json"}));
+              (std::vector<std::string>{"binding.json", "quads", "report.html", "run.json"}));
     EXPECT_EQ(names_in(scratch / "out" / "quads").size(), 4U);
 }
 
@@ -198,7 +200,7 @@ TEST(Program, SingleMeshGivesASingleMesh) {
     ASSERT_EQ(run_program(scratch, "convert biped one.obj --frame 0 -q").code, 0);
     ASSERT_EQ(run_program(scratch, "run one.obj -o out --vertices 500 --no-metrics -q").code, 0);
     EXPECT_EQ(names_in(scratch / "out"),
-              (std::vector<std::string>{"binding.json", "quads.obj", "run.json"}));
+              (std::vector<std::string>{"binding.json", "quads.obj", "report.html", "run.json"}));
 }
 
 TEST(Program, ResultsDoNotDependOnTheNumberOfThreads) {

@@ -44,5 +44,43 @@ TEST(FitCamera, FrameIsRightHandedAndHoldsEveryPoint) {
 
 TEST(NamedViewpoint, RefusesUnknownNames) { EXPECT_THROW(named_viewpoint("below"), InputError); }
 
+/// Expects that `V` is inside of the camera's box.
+void expect_in_picture(const Positions& V, const Camera& camera) {
+    const Positions off = V.rowwise() - camera.center.transpose();
+    EXPECT_LE((off * camera.right).cwiseAbs().maxCoeff(), camera.half_width * (1 + 1e-12));
+    EXPECT_LE((off * camera.up).cwiseAbs().maxCoeff(), camera.half_height * (1 + 1e-12));
+}
+
+TEST(Camera, UnitedHoldsWhatBothHold) {
+    const Positions a = test::sphere(2).V;
+    const Positions b = (0.5 * a).rowwise() + Eigen::RowVector3d(3, 1, -2);
+    const Viewpoint viewpoint{20, 30, UpAxis::z};
+    const Camera united = unite_cameras(fit_camera(a, viewpoint), fit_camera(b, viewpoint));
+    Positions both(2 * a.rows(), 3);
+    both << a, b;
+    expect_in_picture(both, united);
+    const Camera expected = fit_camera(both, viewpoint);
+    EXPECT_NEAR(united.half_width, expected.half_width, 1e-12);
+    EXPECT_NEAR(united.half_height, expected.half_height, 1e-12);
+}
+
+TEST(Camera, TurntableGoesOnceAroundWithoutAJump) {
+    Positions V = test::torus(20, 10).V;
+    V.col(0) *= 2;
+    V.rowwise() += Eigen::RowVector3d(5, -1, 2);
+    const std::vector<Camera> cameras = turntable_cameras(V, named_viewpoint("quarter"), 8);
+    ASSERT_EQ(cameras.size(), 8U);
+    EXPECT_TRUE(cameras[0].toward.isApprox(fit_camera(V, named_viewpoint("quarter")).toward));
+    Vector3 sum = Vector3::Zero();
+    for (const Camera& camera : cameras) {
+        expect_in_picture(V, camera);
+        EXPECT_EQ(camera.center, cameras[0].center);
+        EXPECT_EQ(camera.half_width, cameras[0].half_width);
+        sum += camera.right;
+    }
+    EXPECT_NEAR(sum.norm(), 0, 1e-12);
+    EXPECT_NEAR(cameras[0].right.dot(cameras[2].right), 0, 1e-12);
+}
+
 }  // namespace
 }  // namespace kinequad

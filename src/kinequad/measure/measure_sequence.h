@@ -62,10 +62,25 @@ struct SequenceMetrics {
     double stretch_alignment_degrees = 0;
 };
 
-/// Measures `quads` against `input`, frame by frame, holding one frame in memory. Stretch alignment
-/// is measured where `reference` is given. Throws `InputError` (mesh) where the two do not have the
-/// same number of frames, the faces do not fit the vertices or a position is not finite; (usage)
-/// where `frame_step` is not positive; `Cancelled`; and what the sources throw.
+/// One of several quad meshes that are measured together.
+struct MeasuredQuads {
+    QuadSequence quads;
+    /// Where stretch alignment is measured.
+    std::optional<StretchReference> reference;
+};
+
+/// Measures several quad meshes against the same `input`, frame by frame, holding one frame in
+/// memory; each frame is read and made ready for searches once. Returns one result a mesh, the same
+/// as if it was measured alone. Throws `InputError` (mesh) where the two do not have the same
+/// number of frames, the faces do not fit the vertices or a position is not finite; (usage) where
+/// `frame_step` is not positive; `Cancelled`; and what the sources throw.
+std::vector<SequenceMetrics> measure_sequences(const FrameSource& input,
+                                               const std::vector<MeasuredQuads>& meshes,
+                                               const MeasureOptions& options = {},
+                                               const Context& context = {});
+
+/// Measures one quad mesh. Stretch alignment is measured where `reference` is given. Throws as
+/// `measure_sequences`.
 SequenceMetrics measure_sequence(const FrameSource& input, const QuadSequence& quads,
                                  const std::optional<StretchReference>& reference = {},
                                  const MeasureOptions& options = {}, const Context& context = {});

@@ -4,25 +4,9 @@
 
 #include "kinequad/core/context.h"
 #include "kinequad/core/types.h"
-#include "kinequad/io/polygons.h"
-#include "kinequad/mesh/intrinsic_metric.h"
-#include "kinequad/mesh/topology.h"
+#include "kinequad/measure/quad_crosses.h"
 
 namespace kinequad {
-
-/// What the stretch of an animation is measured against, and the quads in one pose of it.
-struct StretchReference {
-    Positions V;  ///< n x 3: the input in the pose in which quads and triangles are matched
-    Triangles F;  ///< m x 3
-    /// m x 3: lengths of the half-edges of every triangle at rest. They need not be those of `V`.
-    Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> sides;
-    Positions X;     ///< v x 3: the quad mesh in the pose of `V`
-    Polygons faces;  ///< faces of the quad mesh
-};
-
-/// The lengths at rest of all half-edges (m x 3), for `StretchReference::sides`.
-Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> triangle_sides(
-    const Topology& topology, const IntrinsicMetric& metric);
 
 /// How well the edges of a quad mesh follow the stretch of an animation: the angle, modulo 90
 /// degrees, between the principal stretch direction of a triangle and the cross of the quad over

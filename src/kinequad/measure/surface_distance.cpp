@@ -35,27 +35,25 @@ SurfaceDistanceMeter::SurfaceDistanceMeter(DistanceOptions options) : options_(o
             "the spacing of distance samples must be positive");
 }
 
-SurfaceDistance SurfaceDistanceMeter::measure(const TriangleMesh& input, const TriangleMesh& quads,
+SurfaceDistance SurfaceDistanceMeter::measure(const ClosestPoints& input, const TriangleMesh& quads,
                                               const Context& context) {
-    place(input_, input);
     place(quads_, quads);
-    const double diagonal = bounding_box_diagonal(input.V);
+    const Positions& V = input.positions();
+    const double diagonal = bounding_box_diagonal(V);
     require(
         diagonal > 0, InputFault::mesh,
         "all vertices of the input are in one place; distances relative to its size mean nothing");
-    input_hint_.resize(static_cast<std::size_t>(input.V.rows()), -1);
-    quads_hint_.resize(static_cast<std::size_t>(quads.V.rows()), -1);
     SurfaceDistance result;
-    result.quads_to_input = measure_directed_distance(quads.V, quads.F, *input_, diagonal, options_,
-                                                      quads_hint_, context);
-    result.input_to_quads = measure_directed_distance(input.V, input.F, *quads_, diagonal, options_,
-                                                      input_hint_, context);
+    result.quads_to_input = measure_directed_distance(quads.V, quads.F, input, diagonal, options_,
+                                                      quads_hints_, context);
+    result.input_to_quads = measure_directed_distance(V, input.triangles(), *quads_, diagonal,
+                                                      options_, input_hints_, context);
     return result;
 }
 
 SurfaceDistance measure_distance(const TriangleMesh& input, const TriangleMesh& quads,
                                  const DistanceOptions& options, const Context& context) {
-    return SurfaceDistanceMeter(options).measure(input, quads, context);
+    return SurfaceDistanceMeter(options).measure(ClosestPoints(input.V, input.F), quads, context);
 }
 
 }  // namespace kinequad

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "kinequad/core/context.h"
@@ -44,28 +45,36 @@ struct SurfaceDistance {
     double mean_percent() const;
 };
 
-/// Measures one pair of surfaces after another, frame by frame: what was near in the last frame
-/// makes the next one quick, and changes no result. Distances are exact in double precision; the
-/// result does not depend on the number of threads.
+/// What was nearest when a surface was measured last, to make the next frame quick; it changes no
+/// result.
+struct DistanceHints {
+    std::vector<int> vertex;  ///< triangle of the target nearest to each vertex, -1 for unknown
+    std::vector<int> center;  ///< the same for a point of each triangle
+};
+
+/// Measures a quad mesh against the input frame by frame: what was near in the last frame makes the
+/// next one quick, and changes no result. Distances are exact in double precision; the result does
+/// not depend on the number of threads.
 class SurfaceDistanceMeter {
 public:
+    /// Throws `InputError` (usage) where the spacing is not positive.
     explicit SurfaceDistanceMeter(DistanceOptions options = {});
 
-    /// Distance of `quads`, cut into triangles, from `input` in the same pose. Throws `InputError`
-    /// (mesh) where a surface has no triangle, a position is not finite, or the input has no
-    /// extent.
-    SurfaceDistance measure(const TriangleMesh& input, const TriangleMesh& quads,
+    /// Distance of `quads`, cut into triangles, from `input` in the same pose. Several meters may
+    /// share one `input`. Throws `InputError` (mesh) where a surface has no triangle, a position is
+    /// not finite, or the input has no extent.
+    SurfaceDistance measure(const ClosestPoints& input, const TriangleMesh& quads,
                             const Context& context = {});
 
-    /// The input of the last `measure`, for further questions; null before the first.
-    const ClosestPoints* input_surface() const { return input_.get(); }
+    /// For every vertex of the quads, the triangle of the input that was nearest to it in the last
+    /// `measure`, -1 where no face uses the vertex; empty before the first.
+    const std::vector<int>& nearest_input_triangles() const { return quads_hints_.vertex; }
 
 private:
     DistanceOptions options_;
-    std::unique_ptr<ClosestPoints> input_;
     std::unique_ptr<ClosestPoints> quads_;
-    std::vector<int> input_hint_;  ///< triangle of the quads nearest to each input vertex
-    std::vector<int> quads_hint_;  ///< triangle of the input nearest to each quad vertex
+    DistanceHints input_hints_;
+    DistanceHints quads_hints_;
 };
 
 /// Distance of two surfaces in one pose; percentages are of the diagonal of `input`. For a sequence

@@ -11,6 +11,9 @@
 
 namespace kinequad {
 
+/// The options as in run.json; empty fields of `options` have been filled in.
+nlohmann::ordered_json make_options_record(const Options& options);
+
 /// run.json: version, options, input with its digest, what every stage found and took, and the
 /// metrics (null where they were not measured). Together with the input it is enough to repeat the
 /// run.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "kinequad/core/error.h"
 
@@ -50,6 +51,49 @@ Camera fit_camera(const Positions& V, const Viewpoint& viewpoint) {
     camera.half_width = std::max(0.5 * (high.x() - low.x()), least);
     camera.half_height = std::max(0.5 * (high.y() - low.y()), least);
     return camera;
+}
+
+Camera unite_cameras(const Camera& a, const Camera& b) {
+    Camera camera = a;
+    const Vector3 between = b.center - a.center;
+    // Along an axis of the picture, counted from the middle of `a`: [low, high].
+    const auto range_along = [&](const Vector3& axis, double half_a, double half_b) {
+        const double offset = between.dot(axis);
+        return std::pair(std::min(-half_a, offset - half_b), std::max(half_a, offset + half_b));
+    };
+    const auto [left, right] = range_along(a.right, a.half_width, b.half_width);
+    const auto [bottom, top] = range_along(a.up, a.half_height, b.half_height);
+    camera.center += 0.5 * (left + right) * a.right + 0.5 * (bottom + top) * a.up;
+    camera.half_width = 0.5 * (right - left);
+    camera.half_height = 0.5 * (top - bottom);
+    return camera;
+}
+
+std::vector<Camera> turntable_cameras(const Positions& V, const Viewpoint& viewpoint, int count) {
+    std::vector<Camera> cameras;
+    Vector3 center = Vector3::Zero();
+    if (V.rows() > 0) {
+        const Vector3 low = V.colwise().minCoeff().transpose();
+        const Vector3 high = V.colwise().maxCoeff().transpose();
+        center = 0.5 * (low + high);
+    }
+    double half_width = 0;
+    double half_height = 0;
+    for (int k = 0; k < count; ++k) {
+        Viewpoint turned = viewpoint;
+        turned.yaw_degrees += 360.0 * k / count;
+        Camera camera = fit_camera(V, turned);
+        const Vector3 off = camera.center - center;
+        half_width = std::max(half_width, camera.half_width + std::abs(off.dot(camera.right)));
+        half_height = std::max(half_height, camera.half_height + std::abs(off.dot(camera.up)));
+        camera.center = center;
+        cameras.push_back(camera);
+    }
+    for (Camera& camera : cameras) {
+        camera.half_width = half_width;
+        camera.half_height = half_height;
+    }
+    return cameras;
 }
 
 }  // namespace kinequad

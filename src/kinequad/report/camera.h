@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "kinequad/core/types.h"
 
@@ -35,5 +36,13 @@ struct Camera {
 /// Camera at `viewpoint` in which every point of `V` (n x 3) is just in the picture. Give it the
 /// points of several frames or meshes stacked to have one framing for all of them.
 Camera fit_camera(const Positions& V, const Viewpoint& viewpoint);
+
+/// The camera in which all is in the picture that is in the picture of `a` or `b`, two cameras at
+/// the same viewpoint.
+Camera unite_cameras(const Camera& a, const Camera& b);
+
+/// `count` cameras that go once around `V` (n x 3), the first at `viewpoint`, each a step further
+/// to the figure's left, all with the same middle and the same size of the picture.
+std::vector<Camera> turntable_cameras(const Positions& V, const Viewpoint& viewpoint, int count);
 
 }  // namespace kinequad

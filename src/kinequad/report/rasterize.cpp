@@ -45,7 +45,8 @@ Range cells_between(double low, double high, double size, int count) {
 template <class Boxes>
 void sort_boxes(std::size_t count, const TileLists& tiles, const Boxes& box,
                 std::vector<std::size_t>& begin, std::vector<int>& list) {
-    const auto tile_count = static_cast<std::size_t>(tiles.columns * tiles.rows);
+    const std::size_t tile_count =
+        static_cast<std::size_t>(tiles.columns) * static_cast<std::size_t>(tiles.rows);
     begin.assign(tile_count + 1, 0);
     const auto for_tiles = [&](std::size_t i, const auto& visit) {
         const Box b = box(i);
@@ -53,7 +54,8 @@ void sort_boxes(std::size_t count, const TileLists& tiles, const Boxes& box,
         const Range y = cells_between(b.low_y, b.high_y, tiles.size, tiles.rows);
         for (int row = y.first; row <= y.last; ++row) {
             for (int column = x.first; column <= x.last; ++column) {
-                visit(static_cast<std::size_t>(row * tiles.columns + column));
+                visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(tiles.columns) +
+                      static_cast<std::size_t>(column));
             }
         }
     };
@@ -103,6 +105,9 @@ PixelRange clip(const Box& box, const ScreenScene& scene, const TileLists& tiles
     return range;
 }
 
+float smaller(float a, float b) { return a < b ? a : b; }
+float larger(float a, float b) { return a > b ? a : b; }
+
 void draw_triangle(const ScreenScene& scene, int index, const PixelRange& range, Samples& samples) {
     const auto& triangle = scene.triangles[static_cast<std::size_t>(index)];
     std::array<ScreenVertex, 3> corner;
@@ -131,6 +136,17 @@ void draw_triangle(const ScreenScene& scene, int index, const PixelRange& range,
         static_cast<float>(std::max({corner[0].depth, corner[1].depth, corner[2].depth}));
     const SamplePattern& pattern = sample_pattern();
     const auto half_line = static_cast<float>(scene.half_line);
+    // A side that is no edge of a polygon is too far away to be drawn.
+    std::array<float, 3> no_edge{};
+    std::array<float, 3> slope_x{};
+    std::array<float, 3> slope_y{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        no_edge[k] = triangle.is_edge[k] ? 0.0F : 1e30F;
+        slope_x[k] = static_cast<float>(side[k].x);
+        slope_y[k] = static_cast<float>(side[k].y);
+    }
+    const auto depth_x = static_cast<float>(depth.x);
+    const auto depth_y = static_cast<float>(depth.y);
     for (int y = range.first_y; y <= range.last_y; ++y) {
         for (int x = range.first_x; x <= range.last_x; ++x) {
             std::array<float, 3> center{};
@@ -143,22 +159,23 @@ void draw_triangle(const ScreenScene& scene, int index, const PixelRange& range,
             if (outside) continue;
             const auto center_depth = static_cast<float>(depth.at(x + 0.5, y + 0.5));
             const std::size_t first = range.sample(x, y);
+            // Plain loops over the samples, one quantity each, for the compiler to do four at once.
+            std::array<float, sample_count> inside;
+            std::array<float, sample_count> to_line;
+            std::array<float, sample_count> z;
             for (std::size_t s = 0; s < sample_count; ++s) {
-                std::array<float, 3> d{};
-                for (std::size_t k = 0; k < 3; ++k) {
-                    d[k] = center[k] + static_cast<float>(side[k].x) * pattern.x[s] +
-                           static_cast<float>(side[k].y) * pattern.y[s];
-                }
-                if (std::min({d[0], d[1], d[2]}) < -side_tolerance) continue;
-                const float z =
-                    std::clamp(center_depth + static_cast<float>(depth.x) * pattern.x[s] +
-                                   static_cast<float>(depth.y) * pattern.y[s],
-                               least, most);
-                if (z <= samples.depth[first + s]) continue;
-                const bool line = (triangle.is_edge[0] && d[0] < half_line) ||
-                                  (triangle.is_edge[1] && d[1] < half_line) ||
-                                  (triangle.is_edge[2] && d[2] < half_line);
-                samples.depth[first + s] = z;
+                const float a = center[0] + slope_x[0] * pattern.x[s] + slope_y[0] * pattern.y[s];
+                const float b = center[1] + slope_x[1] * pattern.x[s] + slope_y[1] * pattern.y[s];
+                const float c = center[2] + slope_x[2] * pattern.x[s] + slope_y[2] * pattern.y[s];
+                inside[s] = smaller(a, smaller(b, c));
+                to_line[s] = smaller(a + no_edge[0], smaller(b + no_edge[1], c + no_edge[2]));
+                const float slope = center_depth + depth_x * pattern.x[s] + depth_y * pattern.y[s];
+                z[s] = smaller(larger(slope, least), most);
+            }
+            for (std::size_t s = 0; s < sample_count; ++s) {
+                if (inside[s] < -side_tolerance || z[s] <= samples.depth[first + s]) continue;
+                samples.depth[first + s] = z[s];
+                const bool line = to_line[s] < half_line;
                 samples.hit[first + s] = {line ? Hit::Kind::line : Hit::Kind::face, index};
             }
         }
@@ -223,7 +240,8 @@ TileLists sort_into_tiles(const ScreenScene& scene) {
 }
 
 std::vector<Hit> rasterize_tile(const ScreenScene& scene, const TileLists& tiles, int tile) {
-    const auto count = static_cast<std::size_t>(tiles.size * tiles.size * sample_count);
+    const auto size = static_cast<std::size_t>(tiles.size);
+    const std::size_t count = size * size * sample_count;
     Samples samples{std::vector<float>(count, -std::numeric_limits<float>::infinity()),
                     std::vector<Hit>(count)};
     const auto at = static_cast<std::size_t>(tile);

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "kinequad/core/error.h"
@@ -218,12 +219,26 @@ Prepared prepare(const RenderScene& scene, const Camera& camera, const RenderOpt
 class TilePainter {
 public:
     TilePainter(const RenderScene& scene, const RenderOptions& options, const Prepared& prepared)
-        : scene_(scene),
-          options_(options),
-          prepared_(prepared),
+        : prepared_(prepared),
           surface_(linear_from_srgb(options.surface_color)),
-          line_(linear_from_srgb(options.edge_color)) {}
+          line_(linear_from_srgb(options.edge_color)) {
+        for (int y = 0; y < options.height; ++y) {
+            const double t = (y + 0.5) / options.height;
+            background_.push_back(
+                linear_from_srgb((1 - t) * options.background_top + t * options.background_bottom));
+        }
+        for (const ScreenStroke& stroke : prepared.screen.strokes) {
+            strokes_.push_back(linear_from_srgb(stroke.color));
+        }
+        for (Eigen::Index p = 0; p < scene.polygon_colors.rows(); ++p) {
+            polygons_.push_back(linear_from_srgb(scene.polygon_colors.row(p).transpose()));
+        }
+    }
 
+    /// Linear light of a pixel of row `y` that shows nothing else.
+    const Vector3& background(int y) const { return background_[static_cast<std::size_t>(y)]; }
+
+    /// Linear light of the pixel at `x`, `y`.
     Vector3 pixel(const Hit* hits, int x, int y) const {
         Vector3 sum = Vector3::Zero();
         Vector3 face = Vector3::Zero();
@@ -252,13 +267,8 @@ public:
     }
 
 private:
-    Vector3 background(int y) const {
-        const double t = (y + 0.5) / options_.height;
-        return linear_from_srgb((1 - t) * options_.background_top + t * options_.background_bottom);
-    }
-
-    Vector3 stroke_color(int index) const {
-        return linear_from_srgb(prepared_.screen.strokes[static_cast<std::size_t>(index)].color);
+    const Vector3& stroke_color(int index) const {
+        return strokes_[static_cast<std::size_t>(index)];
     }
 
     Vector3 on_line(int index, const Vector3& face) const {
@@ -286,19 +296,18 @@ private:
         const double length = normal.norm();
         normal = length > 0 ? Vector3(normal / length) : Vector3(Vector3::UnitZ());
         Vector3 albedo =
-            scene_.polygon_colors.rows() == 0
-                ? surface_
-                : linear_from_srgb(scene_.polygon_colors.row(triangle.polygon).transpose());
+            polygons_.empty() ? surface_ : polygons_[static_cast<std::size_t>(triangle.polygon)];
         // The inside of an open surface is told from its outside by a warmer, darker tone.
         if (triangle.seen_from_behind) albedo = albedo.cwiseProduct(Vector3(0.62, 0.45, 0.36));
         return shade(albedo, normal);
     }
 
-    const RenderScene& scene_;
-    const RenderOptions& options_;
     const Prepared& prepared_;
     Vector3 surface_;
     Vector3 line_;
+    std::vector<Vector3> background_;  ///< linear light, one a row of the picture
+    std::vector<Vector3> strokes_;
+    std::vector<Vector3> polygons_;  ///< empty where all have the colour of the surface
 };
 
 }  // namespace
@@ -318,26 +327,30 @@ Image render_mesh(const RenderScene& scene, const Camera& camera, const RenderOp
     const TilePainter painter(scene, options, prepared);
     Image image{options.width, options.height, {}};
     image.rgb.resize(image.offset(0, options.height));
-    parallel_for(static_cast<std::size_t>(tiles.columns * tiles.rows), 1, context,
+    const auto paint = [&](int x, int y, const Vector3& light) {
+        for (int c = 0; c < 3; ++c) {
+            image.rgb[image.offset(x, y) + static_cast<std::size_t>(c)] =
+                srgb_byte_from_linear(light[c]);
+        }
+    };
+    const auto paint_tile = [&](std::size_t tile) {
+        const int x0 = static_cast<int>(tile) % tiles.columns * tiles.size;
+        const int y0 = static_cast<int>(tile) / tiles.columns * tiles.size;
+        const bool is_empty = tiles.triangle_begin[tile] == tiles.triangle_begin[tile + 1] &&
+                              tiles.stroke_begin[tile] == tiles.stroke_begin[tile + 1];
+        const auto hits = is_empty ? std::vector<Hit>()
+                                   : rasterize_tile(prepared.screen, tiles, static_cast<int>(tile));
+        for (int y = y0; y < std::min(y0 + tiles.size, image.height); ++y) {
+            auto hit = static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(tiles.size) *
+                       sample_count;
+            for (int x = x0; x < std::min(x0 + tiles.size, image.width); ++x, hit += sample_count) {
+                paint(x, y, is_empty ? painter.background(y) : painter.pixel(&hits[hit], x, y));
+            }
+        }
+    };
+    parallel_for(tiles.triangle_begin.size() - 1, 4, context,
                  [&](std::size_t begin, std::size_t end) {
-                     for (std::size_t tile = begin; tile < end; ++tile) {
-                         const auto hits =
-                             rasterize_tile(prepared.screen, tiles, static_cast<int>(tile));
-                         const int x0 = static_cast<int>(tile) % tiles.columns * tiles.size;
-                         const int y0 = static_cast<int>(tile) / tiles.columns * tiles.size;
-                         for (int y = y0; y < std::min(y0 + tiles.size, image.height); ++y) {
-                             for (int x = x0; x < std::min(x0 + tiles.size, image.width); ++x) {
-                                 const auto first = static_cast<std::size_t>(
-                                     ((y - y0) * tiles.size + (x - x0)) * sample_count);
-                                 const Vector3 color =
-                                     srgb_from_linear(painter.pixel(hits.data() + first, x, y));
-                                 for (int c = 0; c < 3; ++c) {
-                                     image.rgb[image.offset(x, y) + static_cast<std::size_t>(c)] =
-                                         static_cast<std::uint8_t>(std::lround(255 * color[c]));
-                                 }
-                             }
-                         }
-                     }
+                     for (std::size_t tile = begin; tile < end; ++tile) paint_tile(tile);
                  });
     return image;
 }

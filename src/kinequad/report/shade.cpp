@@ -1,18 +1,15 @@
 #include "kinequad/report/shade.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace kinequad::report_detail {
 namespace {
 
 double linear_channel(double c) {
     return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
-double srgb_channel(double c) {
-    c = std::clamp(c, 0.0, 1.0);
-    return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
 }
 
 /// Diffuse light that reaches a little around the terminator, which keeps shadows soft.
@@ -24,7 +21,33 @@ double wrapped(double cosine, double wrap) {
 }  // namespace
 
 Vector3 linear_from_srgb(const Vector3& color) { return color.unaryExpr(&linear_channel); }
-Vector3 srgb_from_linear(const Vector3& color) { return color.unaryExpr(&srgb_channel); }
+
+std::uint8_t srgb_byte_from_linear(double channel) {
+    // Where one byte ends and the next begins, and for parts of the range the byte at their
+    // beginning: a look and a few steps are much quicker than a power.
+    constexpr int parts = 4096;
+    struct Table {
+        std::array<double, 256> end;
+        std::array<std::uint8_t, parts + 1> first;
+    };
+    static const Table table = [] {
+        Table made{};
+        for (std::size_t i = 0; i < 255; ++i) {
+            made.end[i] = linear_channel((static_cast<double>(i) + 0.5) / 255);
+        }
+        made.end[255] = std::numeric_limits<double>::infinity();
+        std::uint8_t byte = 0;
+        for (std::size_t part = 0; part < made.first.size(); ++part) {
+            while (made.end[byte] <= static_cast<double>(part) / parts) ++byte;
+            made.first[part] = byte;
+        }
+        return made;
+    }();
+    const double light = channel > 0 ? std::min(channel, 1.0) : 0.0;  // 0 for what is no number
+    std::uint8_t byte = table.first[static_cast<std::size_t>(light * parts)];
+    while (table.end[byte] <= light) ++byte;
+    return byte;
+}
 
 Vector3 shade(const Vector3& albedo, const Vector3& normal) {
     static const Vector3 key = Vector3(-0.50, 0.62, 0.60).normalized();

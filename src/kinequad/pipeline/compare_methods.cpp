@@ -1,0 +1,206 @@
+#include "kinequad/pipeline/compare_methods.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "kinequad/core/error.h"
+#include "kinequad/deformation/compute_mean_metric.h"
+#include "kinequad/measure/symmetry_error.h"
+#include "kinequad/pipeline/find_symmetry.h"
+#include "kinequad/pipeline/quadrangulate.h"
+#include "kinequad/transfer/bind_to_surface.h"
+#include "kinequad/transfer/transfer.h"
+
+namespace kinequad {
+namespace {
+
+void require_unique_names(const ComparisonOptions& options) {
+    std::vector<std::string> names;
+    for (const ComparedRecipe& recipe : options.recipes) names.push_back(recipe.name);
+    for (const ForeignMesh& mesh : options.foreign) names.push_back(mesh.name);
+    std::sort(names.begin(), names.end());
+    const auto twice = std::adjacent_find(names.begin(), names.end());
+    if (twice == names.end()) return;
+    throw InputError(InputFault::usage,
+                     fmt::format("two meshes are called '{}'; give one another name", *twice));
+}
+
+/// `context` with `name` in front of every stage that it reports.
+Context named_context(const Context& context, const std::string& name) {
+    Context named = context;
+    if (context.progress) {
+        named.progress = [&context, name](std::string_view stage, double fraction) {
+            context.progress(fmt::format("{}: {}", name, stage), fraction);
+        };
+    }
+    return named;
+}
+
+/// The symmetry map that all meshes are measured with; empty where there is none.
+std::optional<SymmetryMap> find_measuring_map(const FrameSource& source,
+                                              const IntrinsicMetric& metric,
+                                              const std::optional<Landmarks>& landmarks,
+                                              const Positions& reference, const Context& context) {
+    if (landmarks) return find_symmetry(source, metric, landmarks, reference, context).map;
+    try {
+        return find_symmetry(source, metric, landmarks, reference, context).map;
+    } catch (const InputError& error) {
+        context.write_log(LogLevel::info, fmt::format("no symmetry error: {}", error.what()));
+    } catch (const VerificationError& error) {
+        context.write_log(LogLevel::info, fmt::format("no symmetry error: {}", error.what()));
+    }
+    return std::nullopt;
+}
+
+/// Adds the methods one by one, then measures all of them.
+class MethodComparer {
+public:
+    MethodComparer(const FrameSource& source, const ComparisonOptions& options,
+                   const Context& context)
+        : source_(source),
+          options_(options),
+          context_(context),
+          reference_(options.reference == Options::rest_shape
+                         ? source.read_rest_shape()
+                         : source.read_frame(options.reference)) {}
+
+    ComparisonResult run() {
+        for (const ComparedRecipe& recipe : options_.recipes) make(recipe);
+        if (result_.meshes.empty() && failure_) std::rethrow_exception(failure_);
+        for (const ForeignMesh& mesh : options_.foreign) carry(mesh);
+        measure();
+        return std::move(result_);
+    }
+
+private:
+    void make(const ComparedRecipe& recipe) {
+        try {
+            const Context context = named_context(context_, recipe.name);
+            Result made = quadrangulate(source_, options_.landmarks, recipe.options, context);
+            if (recipe.is_baseline) {
+                result_.comparison.baseline = static_cast<int>(result_.meshes.size());
+            }
+            double seconds = 0;
+            for (const StageTime& time : made.times) seconds += time.cpu_seconds;
+            add({recipe.name, recipe.description, {}, ComparedMethod::unknown, seconds},
+                follow_surface(made.quads, source_.triangles()));
+            result_.times.back() = std::move(made.times);
+            result_.options.back() = made.options;
+        } catch (const GridMapError& error) {
+            leave_out(recipe, error.what());
+        } catch (const VerificationError& error) {
+            leave_out(recipe, error.what());
+        }
+    }
+
+    void leave_out(const ComparedRecipe& recipe, const char* reason) {
+        failure_ = std::current_exception();
+        context_.write_log(
+            LogLevel::warning,
+            fmt::format("{} found no valid mesh and is left out: {}", recipe.name, reason));
+    }
+
+    void carry(const ForeignMesh& mesh) {
+        const auto points = bind_to_surface(mesh.X, reference_, source_.triangles(), context_);
+        warn_if_elsewhere(mesh, carried_positions(points, reference_, source_.triangles()));
+        add({mesh.name, "A mesh that was given, carried by the nearest points of the input.", {}},
+            follow_surface(mesh.faces, points, source_.triangles()));
+    }
+
+    /// A mesh in another pose is carried all the same, but what is measured then means nothing.
+    void warn_if_elsewhere(const ForeignMesh& mesh, const Positions& on_surface) const {
+        const double farthest = std::sqrt((mesh.X - on_surface).rowwise().squaredNorm().maxCoeff());
+        const double percent = 100 * farthest / bounding_box_diagonal(reference_);
+        if (!(percent > 3)) return;
+        context_.write_log(
+            LogLevel::warning,
+            fmt::format("{}: a vertex is {:.1f} % of the diagonal away from the input; is the mesh "
+                        "in the pose of --reference?",
+                        mesh.name, percent));
+    }
+
+    void add(ComparedMethod method, QuadSequence mesh) {
+        result_.comparison.methods.push_back(std::move(method));
+        result_.meshes.push_back(std::move(mesh));
+        result_.times.emplace_back();
+        result_.options.emplace_back();
+    }
+
+    StretchReference quads_over_reference(std::size_t i, const IntrinsicMetric& metric) const {
+        const QuadSequence& mesh = result_.meshes[i];
+        return {reference_, source_.triangles(), triangle_sides(topology_, metric),
+                mesh.read_frame(0, reference_), mesh.faces};
+    }
+
+    void measure() {
+        topology_ = build_topology(source_.triangles(), source_.vertex_count());
+        std::vector<ComparedMethod>& methods = result_.comparison.methods;
+        const IntrinsicMetric mean = compute_mean_metric(source_, topology_, context_);
+        const std::optional<SymmetryMap> map =
+            find_measuring_map(source_, mean, options_.landmarks, reference_, context_);
+        for (std::size_t i = 0; map && i < methods.size(); ++i) {
+            methods[i].symmetry_error_degrees =
+                measure_symmetry_error(quads_over_reference(i, mean), *map, context_);
+        }
+        const IntrinsicMetric rest = metric_of(topology_, reference_);
+        std::vector<MeasuredQuads> measured;
+        for (std::size_t i = 0; i < methods.size(); ++i) {
+            measured.push_back({result_.meshes[i], quads_over_reference(i, rest)});
+        }
+        std::vector<SequenceMetrics> metrics =
+            measure_sequences(source_, measured, options_.measure, context_);
+        for (std::size_t i = 0; i < methods.size(); ++i) {
+            methods[i].metrics = std::move(metrics[i]);
+        }
+    }
+
+    const FrameSource& source_;
+    const ComparisonOptions& options_;
+    const Context& context_;
+    Positions reference_;
+    Topology topology_;
+    ComparisonResult result_;
+    std::exception_ptr failure_;
+};
+
+}  // namespace
+
+std::vector<ComparedRecipe> comparison_recipes(const Options& base, bool has_landmarks) {
+    // What the paper has: its energy and solver, the lengths of one frame, vertices where the map
+    // puts them.
+    Options paper = base;
+    paper.field = CrossFieldMethod::paper;
+    paper.metric = MetricChoice::reference;
+    paper.feature_angle = 0;
+    paper.relax_rounds = 0;
+    paper.alpha = default_alpha(CrossFieldMethod::paper);
+    paper.symmetry = has_landmarks ? SymmetryMode::field : SymmetryMode::none;
+
+    Options animation_only = paper;
+    animation_only.symmetry = SymmetryMode::none;
+
+    Options single_pose = animation_only;
+    single_pose.alpha = 0;
+
+    return {
+        {"single pose",
+         "Mixed-integer quadrangulation of the reference frame alone: no animation, no symmetry.",
+         single_pose},
+        {"animation only",
+         "The paper's baseline: its energy with the stretch of all frames, without symmetry.",
+         animation_only, true},
+        {"paper", "The method of Du and Tu to the letter.", paper},
+        {"kinequad", "Kinequad with its defaults.", base}};
+}
+
+ComparisonResult compare_methods(const FrameSource& source, const ComparisonOptions& options,
+                                 const Context& context) {
+    require_unique_names(options);
+    return MethodComparer(source, options, context).run();
+}
+
+}  // namespace kinequad

@@ -173,7 +173,7 @@ TEST(Quantize, GivesWholeNumbersNearTheWantedCount) {
         SCOPED_TRACE(surface.name);
         const ConeMap it = cones_of(surface, 600);
         const std::optional<Quantization> found =
-            quantize(it.cone, it.seamless.stiffness, it.seamless.best_integers, 600, Context{});
+            quantize(it.cone, it.seamless.stiffness, it.seamless.best_integers, {600}, Context{});
         ASSERT_TRUE(found);
         const Quantization& whole = *found;
         for (const double y : whole.integers) EXPECT_EQ(y, std::round(y));
@@ -194,11 +194,12 @@ TEST(Quantize, GivesWholeNumbersNearTheWantedCount) {
 
 TEST(Quantize, KeepsWholeNumbersThatAreThere) {
     const ConeMap it = cones_of(test::flat_torus(8, 6), 48);
-    const std::optional<Quantization> whole =
-        quantize(it.cone, it.seamless.stiffness, it.seamless.best_integers, 48, Context{});
-    ASSERT_TRUE(whole);
-    EXPECT_EQ(whole->quads, 48);
-    EXPECT_NEAR(whole->scale, 1, 1e-9);
+    const std::optional<Quantization> found =
+        quantize(it.cone, it.seamless.stiffness, it.seamless.best_integers, {48}, Context{});
+    ASSERT_TRUE(found);
+    const Quantization& whole = *found;
+    EXPECT_EQ(whole.quads, 48);
+    EXPECT_NEAR(whole.scale, 1, 1e-9);
 }
 
 }  // namespace

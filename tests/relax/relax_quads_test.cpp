@@ -177,7 +177,7 @@ TEST(UnfoldPass, OpensFoldedQuads) {
     ASSERT_LE(grid.least_jacobian(grid.quads, grid.mesh.V), 0);
     SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
     int folded = 1;
-    for (int pass = 0; pass < 5 && folded > 0; ++pass) folded = sliding.unfold_pass(0.15, 0, {});
+    for (int pass = 0; pass < 5 && folded > 0; ++pass) folded = sliding.unfold_pass(0.15, 0.15, 0, {});
     EXPECT_EQ(folded, 0);
     EXPECT_GT(grid.least_jacobian(sliding.quads(), grid.mesh.V), 0);
     grid.expect_kept(sliding.quads());
@@ -187,7 +187,7 @@ TEST(UnfoldPass, LeavesGoodQuadsAlone) {
     const Grid grid(landscape(12, hill), 6, 0.1);
     SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
     ASSERT_GT(grid.least_jacobian(grid.quads, grid.mesh.V), 0.15);
-    EXPECT_EQ(sliding.unfold_pass(0.15, 0, {}), 0);
+    EXPECT_EQ(sliding.unfold_pass(0.15, 0.15, 0, {}), 0);
     for (std::size_t v = 0; v < grid.quads.vertex.size(); ++v) {
         EXPECT_EQ(sliding.quads().vertex[v].triangle, grid.quads.vertex[v].triangle);
     }

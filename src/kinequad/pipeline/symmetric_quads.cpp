@@ -92,12 +92,10 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
     QuadMesh whole = join_mirrored_quads(on_whole, mirrored, is_on_curve);
     if (result.options.relax_rounds > 0) {
         // Where the surface is finer than the map is straight, mirrored quads can still fold.
-        RelaxOptions options;
-        options.rounds = 0;
-        options.pinned.assign(whole.vertex.size(), 0);
-        std::fill_n(options.pinned.begin(), half.vertex.size(), 1);
-        whole.vertex = relax_quads(whole, {{frames, reference}}, topology,
-                                   metric_of(topology, reference), options, context)
+        std::vector<char> pinned(whole.vertex.size(), 0);
+        std::fill_n(pinned.begin(), half.vertex.size(), 1);
+        whole.vertex = unfold_quads(whole, {frames, reference}, topology,
+                                    metric_of(topology, reference), pinned, {}, context)
                            .vertex;
     }
     return whole;

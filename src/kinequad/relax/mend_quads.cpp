@@ -61,7 +61,8 @@ std::vector<int> SlidingQuads::vertices_around(int quad, int reach) const {
     return around;
 }
 
-int SlidingQuads::unfold_pass(double safe_jacobian, int reach, const Context& context) {
+int SlidingQuads::unfold_pass(double worst_jacobian, double safe_jacobian, int reach,
+                              const Context& context) {
     const FoldBarrier barrier{safe_jacobian, 100};
     // The references decide; the others only choose among what unfolds it alike.
     const auto cost = [&](int v) {
@@ -77,7 +78,7 @@ int SlidingQuads::unfold_pass(double safe_jacobian, int reach, const Context& co
     };
     int folded = 0;
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-        if (least_jacobian_of(q) >= safe_jacobian) continue;
+        if (least_jacobian_of(q) >= worst_jacobian) continue;
         context.check_cancelled();
         for (const int v : vertices_around(q, reach)) {
             if (is_pinned_[at(v)] == 0) search_around(v, [&] { return cost(v); });

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "kinequad/relax/sliding_quads.h"
@@ -44,8 +45,8 @@ std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views,
 int unfold(SlidingQuads& sliding, int most_passes, const Context& context) {
     int folded = 0;
     for (int pass = 0; pass < most_passes; ++pass) {
-        folded = sliding.unfold_pass(pass < releasing_pass ? safe_jacobian : least_jacobian,
-                                     pass / 3, context);
+        const double safe = pass < releasing_pass ? safe_jacobian : least_jacobian;
+        folded = sliding.unfold_pass(safe, safe, pass / 3, context);
         if (folded == 0 && pass > 0) break;
     }
     return folded;
@@ -91,7 +92,6 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
     SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
                          sample_frames(views, options), static_cast<int>(views.size()));
     sliding.let_slide(options.line_edges);
-    if (!options.pinned.empty()) sliding.pin(options.pinned);
     const double limit = options.distance_limit * sliding.mean_edge_length();
     for (int round = 0; round < options.rounds; ++round) {
         context.report_progress("relaxation", static_cast<double>(round) / options.rounds);
@@ -108,6 +108,26 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
             fmt::format("relaxation: {} quads stay folded in the reference frame", folded));
     }
     context.report_progress("relaxation", 1);
+    return sliding.quads();
+}
+
+QuadMesh unfold_quads(const QuadMesh& quads, const RelaxView& view, const Topology& topology,
+                      const IntrinsicMetric& metric, const std::vector<char>& pinned,
+                      const RelaxOptions& options, const Context& context) {
+    SlidingQuads sliding(quads, topology, metric, view.frames.triangles(),
+                         sample_frames({view}, options), 1);
+    sliding.pin(pinned);
+    int folded = sliding.count_folded();
+    // The smallest positive number: what is not folded stays as it is.
+    constexpr double barely_open = std::numeric_limits<double>::min();
+    for (int pass = 0; pass < most_unfolding_passes && folded > 0; ++pass) {
+        folded = sliding.unfold_pass(barely_open, safe_jacobian, pass / 3, context);
+    }
+    if (folded > 0) {
+        context.write_log(
+            LogLevel::warning,
+            fmt::format("relaxation: {} mirrored quads stay folded in the reference frame", folded));
+    }
     return sliding.quads();
 }
 

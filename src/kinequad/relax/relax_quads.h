@@ -16,14 +16,11 @@ struct RelaxOptions {
     int sampled_frames = 12;
     /// The reference is this frame, which is not looked at twice; empty where it is no frame.
     std::optional<int> reference_frame = 0;
-    /// Passes over all vertices; with 0 only what folds, leaves the surface or misses its tips
-    /// moves.
+    /// Passes over all vertices.
     int rounds = 6;
     /// Vertices of the input farther than this from the quads, in edge lengths of the quads, get a
     /// quad vertex of their own: finger tips, ears.
     double distance_limit = 0.4;
-    /// Vertices (v) that stay where they are, beside those on the boundary; empty for none.
-    std::vector<char> pinned = {};
     /// Edges of lines of the surface, such as the line of symmetry or features: quad vertices on
     /// them slide along them.
     std::vector<int> line_edges = {};
@@ -47,5 +44,12 @@ struct RelaxView {
 QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
                      const Topology& topology, const IntrinsicMetric& metric,
                      const RelaxOptions& options, const Context& context);
+
+/// Moves only the vertices around quads that are folded in the reference, until none is, and
+/// vertices that are `pinned` (v, nonzero) not at all. `options.sampled_frames` are looked at
+/// beside it. Throws as `relax_quads`. docs/relaxation.md
+QuadMesh unfold_quads(const QuadMesh& quads, const RelaxView& view, const Topology& topology,
+                      const IntrinsicMetric& metric, const std::vector<char>& pinned,
+                      const RelaxOptions& options, const Context& context);
 
 }  // namespace kinequad

@@ -43,9 +43,9 @@ public:
     int relax_pass(double distance_limit, const Context& context);
 
     /// Tries moves of the vertices up to `reach` quads around every quad whose scaled Jacobian in
-    /// a reference is below `safe_jacobian`, and keeps what opens it. Returns the number of
-    /// quads still folded there.
-    int unfold_pass(double safe_jacobian, int reach, const Context& context);
+    /// a reference is below `worst_jacobian`, and keeps what opens it towards `safe_jacobian`.
+    /// Returns the number of quads still folded there.
+    int unfold_pass(double worst_jacobian, double safe_jacobian, int reach, const Context& context);
 
     /// Largest distance between the two surfaces in the references, in units of the input, seen from
     /// the middles of quads and edges and from the vertices of the input.

@@ -92,11 +92,20 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
     QuadMesh whole = join_mirrored_quads(on_whole, mirrored, is_on_curve);
     if (result.options.relax_rounds > 0) {
         // Where the surface is finer than the map is straight, mirrored quads can still fold.
+        const IntrinsicMetric lengths = metric_of(topology, reference);
         std::vector<char> pinned(whole.vertex.size(), 0);
         std::fill_n(pinned.begin(), half.vertex.size(), 1);
-        whole.vertex = unfold_quads(whole, {frames, reference}, topology,
-                                    metric_of(topology, reference), pinned, {}, context)
-                           .vertex;
+        const auto unfold = [&] {
+            whole.vertex = unfold_quads(whole, {frames, reference}, topology, lengths, pinned, {},
+                                        context)
+                               .vertex;
+        };
+        unfold();
+        // What is left needs room on the solved side too; only the line stays.
+        for (std::size_t v = 0; v < pinned.size(); ++v) {
+            pinned[v] = whole.mirror[v] == static_cast<int>(v) ? 1 : 0;
+        }
+        unfold();
     }
     return whole;
 }

@@ -121,12 +121,14 @@ QuadMesh unfold_quads(const QuadMesh& quads, const RelaxView& view, const Topolo
     // The smallest positive number: what is not folded stays as it is.
     constexpr double barely_open = std::numeric_limits<double>::min();
     for (int pass = 0; pass < most_unfolding_passes && folded > 0; ++pass) {
-        folded = sliding.unfold_pass(barely_open, safe_jacobian, pass / 3, context);
+        // Wider and wider around, at last with less room than one would like.
+        const double safe = pass < releasing_pass ? safe_jacobian : least_jacobian;
+        folded = sliding.unfold_pass(barely_open, safe, pass / 2, context);
     }
     if (folded > 0) {
         context.write_log(
-            LogLevel::warning,
-            fmt::format("relaxation: {} mirrored quads stay folded in the reference frame", folded));
+            LogLevel::info,
+            fmt::format("relaxation: {} quads stay folded in the reference frame", folded));
     }
     return sliding.quads();
 }

@@ -202,4 +202,12 @@ SurfaceCounts count_surface(const Topology& topology) {
     return counts;
 }
 
+std::vector<int> boundary_edges(const Topology& topology) {
+    std::vector<int> edges;
+    for (int e = 0; e < topology.edge_count; ++e) {
+        if (topology.is_boundary_edge(e)) edges.push_back(e);
+    }
+    return edges;
+}
+
 }  // namespace kinequad

@@ -71,6 +71,9 @@ SurfaceCounts count_surface(const Topology& topology);
 /// Component of every triangle (m), numbered from 0 in the order of their lowest triangle.
 std::vector<int> triangle_components(const Topology& topology);
 
+/// The edges of the boundary, ascending.
+std::vector<int> boundary_edges(const Topology& topology);
+
 /// The boundary as closed chains of half-edges, each with the surface on its left, in the order of
 /// their lowest half-edge.
 std::vector<std::vector<int>> boundary_loops(const Topology& topology);

@@ -177,6 +177,9 @@ QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const
                                         : is_frame ? std::optional<int>(result.options.reference)
                                                    : std::nullopt;
         relax_options.line_edges = domain.line_edges();
+        const std::vector<int> boundary = boundary_edges(domain.topology);
+        relax_options.line_edges.insert(relax_options.line_edges.end(), boundary.begin(),
+                                        boundary.end());
         std::vector<RelaxView> relax_views;
         for (const DomainView& view : views) relax_views.push_back({view.frames, view.reference});
         quads =

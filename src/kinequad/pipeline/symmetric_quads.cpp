@@ -95,9 +95,11 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
         const IntrinsicMetric lengths = metric_of(topology, reference);
         std::vector<char> pinned(whole.vertex.size(), 0);
         std::fill_n(pinned.begin(), half.vertex.size(), 1);
+        RelaxOptions options;
+        options.line_edges = boundary_edges(topology);
         const auto unfold = [&] {
-            whole.vertex = unfold_quads(whole, {frames, reference}, topology, lengths, pinned, {},
-                                        context)
+            whole.vertex = unfold_quads(whole, {frames, reference}, topology, lengths, pinned,
+                                        options, context)
                                .vertex;
         };
         unfold();

@@ -32,8 +32,9 @@ void SlidingQuads::search_around(int v, const std::function<double()>& cost) {
             const double angle = 2 * std::numbers::pi * (i + 5 * length) / directions;
             const Vector2 step = length * size * Vector2(std::cos(angle), std::sin(angle));
             place(v, walked(v, before, step));
+            const bool is_apart = slides_[at(v)] == 0 || shortest_edge(v) > 0.1 * size;
             const double value = cost();
-            if (value < least) {
+            if (is_apart && value < least) {
                 least = value;
                 best = quads_.vertex[at(v)];
             }

@@ -116,6 +116,7 @@ QuadMesh unfold_quads(const QuadMesh& quads, const RelaxView& view, const Topolo
                       const RelaxOptions& options, const Context& context) {
     SlidingQuads sliding(quads, topology, metric, view.frames.triangles(),
                          sample_frames({view}, options), 1);
+    sliding.let_slide(options.line_edges);
     sliding.pin(pinned);
     int folded = sliding.count_folded();
     // The smallest positive number: what is not folded stays as it is.

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "kinequad/mesh/trace_geodesic.h"
@@ -15,6 +16,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// Moves shorter than this share of the quad's size are not worth a try.
 constexpr double least_move = 0.01;
 constexpr FoldBarrier relaxing_barrier;
+/// Share of the size of its quads below which a vertex of a line does not come near another.
+constexpr double least_edge = 0.1;
 
 /// Quads as triangles, cut along the shorter diagonal: triangles 2q and 2q + 1 of quad q.
 Triangles cut_quads(const Quads& Q, const Positions& X) {
@@ -201,6 +204,18 @@ double SlidingQuads::watched_distance(int v) const {
     return farthest;
 }
 
+/// Length of the shortest edge at `v` in the first reference.
+double SlidingQuads::shortest_edge(int v) const {
+    const Positions& X = frames_[0].vertices;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const int c : corners_of(v)) {
+        for (const int k : {1, 3}) {
+            shortest = std::min(shortest, (X.row(neighbour(c, k)) - X.row(v)).norm());
+        }
+    }
+    return shortest;
+}
+
 bool SlidingQuads::improve(int v, double distance_limit) {
     const Vector2 move = wanted_move(v);
     const SurfacePoint before = quads_.vertex[at(v)];
@@ -211,7 +226,9 @@ bool SlidingQuads::improve(int v, double distance_limit) {
     const double allowed = std::max(distance_limit, watched_distance(v));
     for (const double length : {1.0, 0.4}) {
         place(v, walked(v, before, length * move));
-        if (cost_around(v, relaxing_barrier) < cost_before &&
+        // Two vertices of a line must not come together at its end.
+        const bool is_apart = slides_[at(v)] == 0 || shortest_edge(v) > least_edge * size;
+        if (is_apart && cost_around(v, relaxing_barrier) < cost_before &&
             watched_distance(v) <= allowed) {
             return true;
         }

@@ -103,6 +103,7 @@ private:
     Vector2 wanted_move(int v) const;
     double least_jacobian_of(int quad) const;
     SurfacePoint walked(int v, const SurfacePoint& start, const Vector2& move) const;
+    double shortest_edge(int v) const;
     double watched_distance(int v) const;
     bool improve(int v, double distance_limit);
     void search_around(int v, const std::function<double()>& cost);

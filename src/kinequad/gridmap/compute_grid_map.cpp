@@ -14,6 +14,8 @@ namespace {
 
 /// Share of its quads that a part keeps at least where smaller parts took more than theirs.
 constexpr double least_share = 0.7;
+/// Share of all quads by which a part may miss its number.
+constexpr double tolerance = 0.01;
 
 double boundary_length(const Topology& topology, const IntrinsicMetric& metric) {
     double sum = 0;
@@ -76,7 +78,8 @@ GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric
         context.report_progress("grid map", (wanted - area_left) / wanted);
         const double share = std::max(least_share, wanted_left / area_left) * component.area;
         GridMap& map = maps[order[i]];
-        map = map_component(component.mesh, std::min(share, 1.1 * component.area), context);
+        map = map_component(component.mesh,
+                            {std::min(share, 1.1 * component.area), tolerance * wanted}, context);
         const double quads = count_quads(map);
         made += quads;
         wanted_left -= quads;

@@ -138,8 +138,8 @@ std::string describe(const GridMapReport& report) {
 /// relaxes it there. Nothing where refinement does not help.
 std::optional<Eigen::VectorXd> reach_integers(ChartedMesh& mesh, MapVariables& variables,
                                               double scale, Eigen::VectorXd x,
-                                              const Eigen::VectorXd& goal, const Context& context) {
-    const int most_triangles = 2 * mesh.triangle_count() + 5000;
+                                              const Eigen::VectorXd& goal, int most_triangles,
+                                              const Context& context) {
     for (int round = 0; round < most_refinements && mesh.triangle_count() < most_triangles;
          ++round) {
         TriangleSystem system(variables);
@@ -167,9 +167,10 @@ struct Attempt {
     bool depends_on_density = true;
 };
 
-Attempt map_at_density(ChartedMesh& mesh, double quad_count, const Context& context) {
+Attempt map_at_density(ChartedMesh mesh, const WantedQuads& wanted, const Context& context) {
     Attempt attempt;
-    for (int round = 0; round < most_rounds; ++round) {
+    const int most_triangles = 2 * mesh.triangle_count() + 5000;
+    for (int round = 0; round < most_rounds && mesh.triangle_count() < most_triangles; ++round) {
         context.check_cancelled();
         const std::vector<char> nodes = find_nodes(mesh);
         const CutGraph cut = cut_to_discs(mesh, nodes);
@@ -196,7 +197,7 @@ Attempt map_at_density(ChartedMesh& mesh, double quad_count, const Context& cont
         attempt.depends_on_density = true;
         const ConeTriangulation cone(mesh, variables, corners, seamless.integers);
         const std::optional<Quantization> whole =
-            quantize(cone, seamless.stiffness, seamless.best_integers, quad_count, context);
+            quantize(cone, seamless.stiffness, seamless.best_integers, wanted, context);
         if (!whole) {
             attempt.obstacle = "the singularities find no room on the integer grid";
             return attempt;
@@ -205,7 +206,8 @@ Attempt map_at_density(ChartedMesh& mesh, double quad_count, const Context& cont
                                                        whole->quads, whole->scale));
         const Eigen::VectorXd goal = variables.lattice * whole->integers;
         std::optional<Eigen::VectorXd> x =
-            reach_integers(mesh, variables, whole->scale, whole->scale * seamless.x, goal, context);
+            reach_integers(mesh, variables, whole->scale, whole->scale * seamless.x, goal,
+                           most_triangles, context);
         if (!x) {
             attempt.obstacle = "singularities are held back from the integer grid";
             continue;
@@ -224,13 +226,13 @@ Attempt map_at_density(ChartedMesh& mesh, double quad_count, const Context& cont
 
 }  // namespace
 
-GridMap map_component(ChartedMesh mesh, double quad_count, const Context& context) {
+GridMap map_component(ChartedMesh mesh, const WantedQuads& wanted, const Context& context) {
     // No part has fewer quads than a triangle.
-    quad_count = std::max(quad_count, 3.0);
+    const double quad_count = std::max(wanted.count, 3.0);
     separate_singularities(mesh);
     std::string obstacle;
     for (const double factor : densities) {
-        Attempt attempt = map_at_density(mesh, factor * quad_count, context);
+        Attempt attempt = map_at_density(mesh, {factor * quad_count, wanted.tolerance}, context);
         if (attempt.map) return std::move(*attempt.map);
         obstacle = attempt.obstacle;
         if (!attempt.depends_on_density) break;

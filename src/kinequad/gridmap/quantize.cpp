@@ -84,13 +84,16 @@ private:
     void add_residual(double lack, const LinearForm<double>& gradient,
                       const std::vector<int>& place, Eigen::MatrixXd& matrix,
                       Eigen::VectorXd& right) const {
+        // Most unknowns are fixed for most of the time.
+        LinearForm<double> moving;
         for (const auto& [i, gi] : gradient) {
             const int row = place[static_cast<std::size_t>(i)];
-            if (row < 0) continue;
+            if (row >= 0) moving.emplace_back(row, gi);
+        }
+        for (const auto& [row, gi] : moving) {
             right[row] += room_weight_ * lack * gi;
-            for (const auto& [j, gj] : gradient) {
-                const int column = place[static_cast<std::size_t>(j)];
-                if (column >= 0 && column <= row) matrix(row, column) += room_weight_ * gi * gj;
+            for (const auto& [column, gj] : moving) {
+                if (column <= row) matrix(row, column) += room_weight_ * gi * gj;
             }
         }
     }
@@ -300,7 +303,7 @@ private:
 
 std::optional<Quantization> quantize(const ConeTriangulation& cone,
                                      const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& best,
-                                     double quad_count, const Context& context) {
+                                     const WantedQuads& wanted, const Context& context) {
     // Scales are tried around the one that should give the wanted count; where cones block each
     // other at one, a slightly different one often works, or room that counts more against shape.
     struct Detour {
@@ -309,10 +312,11 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
     };
     constexpr std::array<Detour, 8> detours = {
         {{1, 10}, {1.01, 10}, {0.99, 10}, {1, 40}, {1.02, 40}, {0.98, 40}, {1, 150}, {1.1, 150}}};
-    double centre = std::sqrt(quad_count / cone.area());
+    double centre = std::sqrt(wanted.count / cone.area());
     std::size_t blocked = 0;
     std::optional<Quantization> closest;
-    const auto miss = [&](const Quantization& q) { return std::abs(q.quads / quad_count - 1); };
+    const auto miss = [&](const Quantization& q) { return std::abs(q.quads - wanted.count); };
+    const double fair = std::max(wanted.tolerance, 0.02 * wanted.count);
     for (int attempt = 0; attempt < 16 && blocked < detours.size(); ++attempt) {
         // Once there is a result, far detours cannot bring a closer one.
         if (closest && detours[blocked].scale > 1.05) break;
@@ -332,9 +336,9 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
         const Quantization found{*integers, scale, rounding.quads()};
         const bool is_closer = !closest || miss(found) < miss(*closest);
         if (is_closer) closest = found;
-        if (miss(*closest) < 0.02 || (miss(*closest) < 0.04 && attempt >= 3)) break;
+        if (miss(*closest) <= fair || (miss(*closest) <= 2 * fair && attempt >= 3)) break;
         if (is_closer) {
-            centre = scale * std::sqrt(quad_count / found.quads);
+            centre = scale * std::sqrt(wanted.count / found.quads);
             blocked = 0;
         } else {
             ++blocked;

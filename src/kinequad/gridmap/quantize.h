@@ -7,6 +7,12 @@
 
 namespace kinequad {
 
+/// How many quads there should be.
+struct WantedQuads {
+    double count = 0;
+    double tolerance = 0;  ///< number by which `count` may be missed without trying again
+};
+
 /// Whole numbers for the integer unknowns of a map, for which a map without flipped triangles
 /// exists.
 struct Quantization {
@@ -17,10 +23,10 @@ struct Quantization {
 
 /// Rounds the unknowns of `cone` (in the injective seamless map) so that the energy
 /// `(y - s best)^T stiffness (y - s best)` stays low and no cone runs into another, at the scale
-/// `s` that gives about `quad_count` quads. docs/gridmap.md, "Whole numbers". Nothing where
+/// `s` that gives about as many quads as wanted. docs/gridmap.md, "Whole numbers". Nothing where
 /// no scale near it works.
 std::optional<Quantization> quantize(const ConeTriangulation& cone,
                                      const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& best,
-                                     double quad_count, const Context& context);
+                                     const WantedQuads& wanted, const Context& context);
 
 }  // namespace kinequad

@@ -188,10 +188,10 @@ private:
             std::set_intersection(ring_a.begin(), ring_a.end(), ring_b.begin(), ring_b.end(),
                                   std::back_inserter(common));
             // The link condition: else the surface would be pinched.
-            const bool is_pinch =
-                common.size() != sides.size() ||
-                (sides.size() == 2 && is_boundary(a) && is_boundary(b)) ||
-                around_[at(a)].size() + around_[at(b)].size() <= 2 * sides.size() + 2;
+            const std::size_t fewest = sides.size() == 2 ? 6 : 2;
+            const bool is_pinch = common.size() != sides.size() ||
+                                  (sides.size() == 2 && is_boundary(a) && is_boundary(b)) ||
+                                  around_[at(a)].size() + around_[at(b)].size() <= fewest;
             if (is_pinch) continue;
             for (const int t : sides) remove(t);
             for (const int t : around_[at(b)]) {

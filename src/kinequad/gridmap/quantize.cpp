@@ -316,7 +316,13 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
     std::size_t blocked = 0;
     std::optional<Quantization> closest;
     const auto miss = [&](const Quantization& q) { return std::abs(q.quads - wanted.count); };
-    const double fair = std::max(wanted.tolerance, 0.02 * wanted.count);
+    // The longer it takes, the more is fair.
+    const auto fair = [&](int attempt) {
+        return std::max(wanted.tolerance, (attempt < 1   ? 0.02
+                                           : attempt < 3 ? 0.04
+                                                         : 0.07) *
+                                              wanted.count);
+    };
     for (int attempt = 0; attempt < 16 && blocked < detours.size(); ++attempt) {
         // Once there is a result, far detours cannot bring a closer one.
         if (closest && detours[blocked].scale > 1.05) break;
@@ -331,12 +337,13 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
                 LogLevel::info,
                 fmt::format("gridmap: cones block each other at scale {:.3f}", scale));
             ++blocked;
+            if (closest && miss(*closest) <= fair(attempt)) break;
             continue;
         }
         const Quantization found{*integers, scale, rounding.quads()};
         const bool is_closer = !closest || miss(found) < miss(*closest);
         if (is_closer) closest = found;
-        if (miss(*closest) <= fair || (miss(*closest) <= 2 * fair && attempt >= 3)) break;
+        if (miss(*closest) <= fair(attempt)) break;
         if (is_closer) {
             centre = scale * std::sqrt(wanted.count / found.quads);
             blocked = 0;

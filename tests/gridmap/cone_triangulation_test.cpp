@@ -172,8 +172,10 @@ TEST(Quantize, GivesWholeNumbersNearTheWantedCount) {
     for (const test::Surface& surface : test::map_surfaces()) {
         SCOPED_TRACE(surface.name);
         const ConeMap it = cones_of(surface, 600);
-        const Quantization whole =
-            quantize(it.cone, it.seamless.stiffness, it.seamless.best_integers, 600, Context{});
+        const std::optional<Quantization> found =
+            quantize(it.cone, it.seamless.stiffness, it.seamless.best_integers, {600}, Context{});
+        ASSERT_TRUE(found);
+        const Quantization& whole = *found;
         for (const double y : whole.integers) EXPECT_EQ(y, std::round(y));
         EXPECT_NEAR(whole.quads, 600, 0.05 * 600);
         EXPECT_EQ(whole.quads, std::round(whole.quads));
@@ -192,8 +194,10 @@ TEST(Quantize, GivesWholeNumbersNearTheWantedCount) {
 
 TEST(Quantize, KeepsWholeNumbersThatAreThere) {
     const ConeMap it = cones_of(test::flat_torus(8, 6), 48);
-    const Quantization whole =
-        quantize(it.cone, it.seamless.stiffness, it.seamless.best_integers, 48, Context{});
+    const std::optional<Quantization> found =
+        quantize(it.cone, it.seamless.stiffness, it.seamless.best_integers, {48}, Context{});
+    ASSERT_TRUE(found);
+    const Quantization& whole = *found;
     EXPECT_EQ(whole.quads, 48);
     EXPECT_NEAR(whole.scale, 1, 1e-9);
 }

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "kinequad/core/error.h"
 #include "quad_checks.h"
 #include "support/shapes.h"
 
@@ -43,6 +44,27 @@ TEST(ExtractQuads, TorusIsARegularGrid) {
         EXPECT_EQ(mesh.Q.rows(), across * up);
         EXPECT_EQ(mesh.vertex.size(), static_cast<std::size_t>(across * up));
         EXPECT_EQ(irregular_valences(mesh), Valences{});
+    }
+}
+
+TEST(ExtractQuads, SplitsRowsWhereEdgesWouldJoinTheSameVertices) {
+    // Two cells around: the rows along the torus are split, those around it are not.
+    const QuadMesh torus = extract_valid(mapped_torus(12, 8, 2, 7).map);
+    EXPECT_EQ(torus.vertex.size(), 21U) << "one of two rows is enough for three cells around";
+    EXPECT_EQ(irregular_valences(torus), Valences{});
+    extract_valid(mapped_torus(12, 8, 2, 2).map);
+    // Boundary loops of two edges.
+    const QuadMesh cylinder = extract_valid(mapped_cylinder(8, 4, 2, 5).map);
+    EXPECT_EQ(irregular_valences(cylinder), Valences{});
+}
+
+TEST(ExtractQuads, SaysThatAQuadThatBordersOnItselfNeedsMore) {
+    const GridMap map = mapped_torus(12, 8, 1, 7).map;
+    try {
+        require_valid(verify_quad_mesh(extract_quads(map, Context{}), map.topology));
+        ADD_FAILURE() << "accepted";
+    } catch (const VerificationError& error) {
+        EXPECT_NE(std::string(error.what()).find("ask for more quads"), std::string::npos);
     }
 }
 

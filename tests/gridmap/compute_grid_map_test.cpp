@@ -141,6 +141,28 @@ TEST(ComputeGridMap, IsValidOrSaysWhyNotAtAnyDensity) {
     }
 }
 
+TEST(ComputeGridMap, SmallPartsGetAsManyQuadsAsTheyNeed) {
+    // A sphere and a hundred times smaller ones beside it, which are far smaller than one quad.
+    const TriangleMesh ball = test::sphere(3);
+    const auto n = static_cast<int>(ball.V.rows());
+    const auto m = ball.F.rows();
+    constexpr int small = 5;
+    TriangleMesh mesh;
+    mesh.V.resize((small + 1) * n, 3);
+    mesh.F.resize((small + 1) * m, 3);
+    for (int i = 0; i <= small; ++i) {
+        const double scale = i < small ? 0.01 : 1;
+        mesh.V.middleRows(i * n, n) = (scale * ball.V).rowwise() + Eigen::RowVector3d(3 * i, 0, 0);
+        mesh.F.middleRows(i * m, m) = (ball.F.array() + i * n).matrix();
+    }
+    const test::Surface surface = test::surface_of(mesh);
+    const GridMap map = map_of(surface, 500);
+    const QuadMesh quads = expect_valid(surface, map);
+    EXPECT_NEAR(static_cast<double>(quads.vertex.size()), 500, 50);
+    EXPECT_EQ(count_surface(surface.topology).components, small + 1);
+    EXPECT_NEAR(map.quads, static_cast<double>(quads.Q.rows()), 1e-6);
+}
+
 TEST(ComputeGridMap, StopsWhenAsked) {
     const std::atomic<bool> stop = true;
     Context context;

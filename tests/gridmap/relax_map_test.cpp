@@ -47,7 +47,7 @@ Start start_of(const test::Surface& surface, double cells) {
     const ConeTriangulation cone(start.map.mesh, variables,
                                  variables.corner_coordinates(seamless.x), seamless.integers);
     const Quantization whole =
-        quantize(cone, seamless.stiffness, seamless.best_integers, cells, Context{});
+        quantize(cone, seamless.stiffness, seamless.best_integers, {cells}, Context{}).value();
     start.scale = whole.scale;
     start.map.shapes = target_shapes(start.map.mesh, whole.scale);
     start.x = whole.scale * seamless.x;

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <random>
+#include <string>
+
 #include "io_support.h"
 #include "kinequad/io/landmarks.h"
 #include "support/data.h"
@@ -50,6 +53,64 @@ TEST(ReadLandmarks, ReadsThoseOfTheRealSequences) {
         ++count;
     }
     EXPECT_GE(count, 10);
+}
+
+/// Random JSON of the kind that a landmarks file is, mostly nearly right.
+std::string random_landmarks(std::mt19937_64& random) {
+    const auto one_in = [&](unsigned n) { return random() % n == 0; };
+    const auto number = [&]() -> std::string {
+        switch (random() % 12) {
+            case 0:
+                return std::to_string(random());
+            case 1:
+                return std::string("-") + std::to_string(random() % 100);
+            case 2:
+                return std::string("1e") + std::to_string(random() % 400);
+            case 3:
+                return one_in(2) ? "null" : "\"7\"";
+            default:
+                return std::to_string(random() % 60);
+        }
+    };
+    const auto list = [&](std::size_t most, const auto& item) {
+        std::string text = "[";
+        const std::size_t count = random() % (most + 1);
+        for (std::size_t i = 0; i < count; ++i) text += std::string(i > 0 ? ", " : "") + item();
+        return text + (one_in(40) ? "" : "]");
+    };
+    const auto pair = [&] {
+        return one_in(9) ? list(4, number) : std::string("[") + number() + "," + number() + "]";
+    };
+    std::string text = "{";
+    if (!one_in(6)) text += std::string("\"pairs\": ") + (one_in(12) ? number() : list(6, pair));
+    if (!one_in(4))
+        text += (one_in(20) ? " " : ", ") + std::string("\"stationary\": ") + list(4, number);
+    text += one_in(30) ? "" : "}";
+    if (one_in(10)) text[random() % text.size()] = static_cast<char>(random() % 256);
+    if (one_in(10)) text.resize(random() % text.size());
+    return text;
+}
+
+TEST(ReadLandmarks, TenThousandRandomFilesAreUnderstoodOrRefused) {
+    std::mt19937_64 random(11);
+    int understood = 0;
+    for (int round = 0; round < 10'000; ++round) {
+        const std::string text = random_landmarks(random);
+        try {
+            const Landmarks landmarks = parse_landmarks(text, "marks.json");
+            require_landmarks_fit(landmarks, 60, "marks.json");
+            ++understood;
+            for (const auto& [a, b] : landmarks.pairs) {
+                ASSERT_TRUE(0 <= a && a < 60 && 0 <= b && b < 60 && a != b) << text;
+            }
+            for (const int v : landmarks.stationary) ASSERT_TRUE(0 <= v && v < 60) << text;
+        } catch (const InputError& error) {
+            ASSERT_EQ(std::string(error.what()).rfind("marks.json", 0), 0U) << error.what();
+            ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_GT(understood, 500);
+    EXPECT_LT(understood, 9'500);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -247,6 +248,56 @@ TEST(Program, FindsTheSymmetryOfACreatureWithoutAndWithLandmarks) {
         EXPECT_LT(sum / static_cast<double>(truth.size()), 0.003 * diagonal);
         EXPECT_EQ(map["stationary"].size(), 1U);
     }
+}
+
+TEST(Program, ChecksAndRepairsMeshes) {
+    const ScratchFolder scratch;
+    // A square of four triangles around vertex 5, one turned over, one repeated.
+    write_content(scratch / "bad.obj",
+                  "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 0\nv 9 9 9\n"
+                  "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 1 4 5\nf 2 3 5\n");
+    const Outcome checked = run_program(scratch, "run bad.obj --check");
+    EXPECT_EQ(checked.code, 4);
+    for (const char* part : {"1-4", "0-4", "3-4", "vertex without triangles: 5", "not valid"}) {
+        EXPECT_NE(checked.out.find(part), std::string::npos) << checked.out;
+    }
+    const Outcome json = run_program(scratch, "run bad.obj --check --json");
+    EXPECT_EQ(json.code, 4);
+    const auto record = nlohmann::json::parse(json.out);
+    EXPECT_EQ(record.at("refused").at("duplicate_triangles"), nlohmann::json({{1, 4}}));
+    expect_refused(scratch, "run bad.obj -o out", 4, "bad.obj: 1 triangle repeats");
+    const Outcome repaired = run_program(scratch, "run bad.obj --repair --check");
+    EXPECT_EQ(repaired.code, 0) << repaired.err;
+    EXPECT_NE(repaired.err.find("turned triangles over: 3"), std::string::npos) << repaired.err;
+    const Outcome made =
+        run_program(scratch, "run bad.obj --repair -o out --vertices 100 --no-metrics -q");
+    EXPECT_EQ(made.code, 0) << made.err;
+    const auto run = nlohmann::json::parse(content_of(scratch / "out/run.json"));
+    EXPECT_EQ(run.at("input").at("repaired").size(), 2U);
+}
+
+TEST(Program, LeavesNothingOfARunOnADamagedFile) {
+    const ScratchFolder scratch;
+    const std::string sound = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+    std::mt19937 random(3);
+    int refused = 0;
+    for (int round = 0; round < 30; ++round) {
+        std::string damaged =
+            sound.substr(0, round < 10 ? 4 * static_cast<std::size_t>(round) : sound.size());
+        if (round >= 10) {
+            damaged[random() % damaged.size()] = static_cast<char>(random() % 128);
+            damaged[random() % damaged.size()] = "0123456789- vf\n"[random() % 15];
+        }
+        write_content(scratch / "in.obj", damaged);
+        std::filesystem::remove_all(scratch / "out");
+        const Outcome outcome =
+            run_program(scratch, "run in.obj -o out --vertices 30 --no-metrics -q");
+        EXPECT_EQ(std::filesystem::exists(scratch / "out"), outcome.code == 0) << damaged;
+        EXPECT_TRUE(outcome.code == 0 || outcome.code == 3 || outcome.code == 4)
+            << outcome.code << outcome.err << damaged;
+        refused += outcome.code == 0 ? 0 : 1;
+    }
+    EXPECT_GT(refused, 10);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ void bench_whole_numbers(benchmark::State& state) {
     for (auto _ : state) {
         const ConeTriangulation cone(map.mesh, map.variables, corners, seamless.integers);
         benchmark::DoNotOptimize(
-            quantize(cone, seamless.stiffness, seamless.best_integers, 5000, Context{}));
+            quantize(cone, seamless.stiffness, seamless.best_integers, {5000}, Context{}));
     }
 }
 BENCHMARK(bench_whole_numbers)->Unit(benchmark::kMillisecond);

@@ -211,7 +211,7 @@ void add_method_options(CLI::App& app, RunCommand& command) {
     app.add_option(
         "--alpha", options.alpha,
         fmt::format("Influence of the animation, from 0 (see the reference frame only) to below "
-                    "1 [{}; 0.2 with a symmetry]",
+                    "1 [{}; 0.3 with --symmetry exact, 0.2 with field]",
                     default_alpha(CrossFieldMethod::convex)));
     app.add_option("--curvature", options.curvature, "Influence of the curvature (convex only)")
         ->capture_default_str();
@@ -222,8 +222,8 @@ void add_method_options(CLI::App& app, RunCommand& command) {
         ->check(CLI::Range(0.0, 180.0))
         ->capture_default_str();
     app.add_option("--singularity-cost", options.singularity_cost,
-                   "Energy that one singularity may cost, in squared radians (convex only) [0.08; 0.2 "
-                   "with --symmetry field]");
+                   "Energy that one singularity may cost, in squared radians (convex only) [0.08; 0.1 "
+                   "with --symmetry exact, 0.2 with field]");
     app.add_option("--relax", options.relax_rounds,
                    "Rounds in which the vertices slide over the surface towards squares; 0: none")
         ->check(CLI::NonNegativeNumber)

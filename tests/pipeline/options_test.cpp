@@ -13,7 +13,7 @@ namespace {
 /// Expects that `options` are refused with a message that names `option`.
 void expect_refused(const Options& options, const std::string& option) {
     try {
-        resolve_options(options, 10, false);
+        resolve_options(options, 10, false, false);
         ADD_FAILURE() << option << " was accepted";
     } catch (const InputError& error) {
         EXPECT_EQ(error.code(), ExitCode::usage);
@@ -23,21 +23,29 @@ void expect_refused(const Options& options, const std::string& option) {
 
 TEST(Options, DefaultsDependOnTheRecipe) {
     Options options;
-    EXPECT_EQ(resolve_options(options, 10, false).alpha, default_alpha(CrossFieldMethod::convex));
-    EXPECT_EQ(resolve_options(options, 10, false).metric, MetricChoice::mean);
+    EXPECT_EQ(resolve_options(options, 10, false, false).alpha, default_alpha(CrossFieldMethod::convex));
+    EXPECT_EQ(resolve_options(options, 10, false, false).metric, MetricChoice::mean);
     options.field = CrossFieldMethod::paper;
-    EXPECT_EQ(resolve_options(options, 10, false).alpha, default_alpha(CrossFieldMethod::paper));
+    EXPECT_EQ(resolve_options(options, 10, false, false).alpha, default_alpha(CrossFieldMethod::paper));
+}
+
+TEST(Options, LandmarksAskForMirroredQuads) {
+    EXPECT_EQ(resolve_options({}, 10, false, true).symmetry, SymmetryMode::exact);
+    EXPECT_EQ(resolve_options({}, 10, false, false).symmetry, SymmetryMode::none);
+    Options options;
+    options.symmetry = SymmetryMode::none;
+    EXPECT_EQ(resolve_options(options, 10, false, true).symmetry, SymmetryMode::none);
 }
 
 TEST(Options, WithoutAnimationTheRunSeesTheReferenceFrameUnlessToldOtherwise) {
     Options options;
     options.alpha = 0;
-    EXPECT_TRUE(is_single_pose(resolve_options(options, 10, false)));
+    EXPECT_TRUE(is_single_pose(resolve_options(options, 10, false, false)));
     options.metric = MetricChoice::mean;
-    EXPECT_FALSE(is_single_pose(resolve_options(options, 10, false)));
+    EXPECT_FALSE(is_single_pose(resolve_options(options, 10, false, false)));
     options.alpha = 0.1;
     options.metric = MetricChoice::reference;
-    EXPECT_FALSE(is_single_pose(resolve_options(options, 10, false)));
+    EXPECT_FALSE(is_single_pose(resolve_options(options, 10, false, false)));
 }
 
 TEST(Options, RefusesValuesOutOfRange) {
@@ -56,18 +64,18 @@ TEST(Options, RefusesValuesOutOfRange) {
     options.vertices = 0;
     expect_refused(options, "--vertices");
     options.edge_length = 0.1;
-    EXPECT_NO_THROW(resolve_options(options, 10, false)) << "--vertices has no say beside a length";
+    EXPECT_NO_THROW(resolve_options(options, 10, false, false)) << "--vertices has no say beside a length";
 }
 
 TEST(Options, TheReferenceIsAFrameOfTheInput) {
     Options options;
     options.reference = 9;
-    EXPECT_NO_THROW(resolve_options(options, 10, false));
+    EXPECT_NO_THROW(resolve_options(options, 10, false, false));
     options.reference = 10;
     expect_refused(options, "--reference");
     options.reference = Options::rest_shape;
     expect_refused(options, "--reference");
-    EXPECT_NO_THROW(resolve_options(options, 10, true));
+    EXPECT_NO_THROW(resolve_options(options, 10, true, false));
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ TEST(Quadrangulate, MeanMetricDoesNotDependOnTheOrderOfTheFrames) {
     const MemorySequence backward(forward.triangles(), frames);
     const Result a = quadrangulate(forward, {}, options_for(400), Context{});
     const Result b = quadrangulate(backward, {}, options_for(400), Context{});
-    EXPECT_TRUE(a.metric.edge_length.isApprox(b.metric.edge_length, 1e-12));
+    EXPECT_TRUE(a.domain.metric.edge_length.isApprox(b.domain.metric.edge_length, 1e-12));
     EXPECT_EQ(a.field.index, b.field.index);
 }
 

@@ -122,7 +122,7 @@ Positions sheared(const Positions& V, double by) {
 TEST(RelaxPass, LeavesAGridOfSquaresAlone) {
     const Grid grid(landscape(12, flat), 6, 0);
     SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
-    EXPECT_EQ(sliding.relax_pass(1, grid.surface(), {}), 0);
+    EXPECT_EQ(sliding.relax_pass(1, {}), 0);
     EXPECT_NEAR(sliding.mean_edge_length(), 1.0 / 6, 1e-12);
 }
 
@@ -133,7 +133,7 @@ TEST(RelaxPass, NeverRaisesTheCostOverAllFrames) {
         SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}, {other, 2.5}});
         double before = grid.cost(grid.quads, grid.mesh.V) + 2.5 * grid.cost(grid.quads, other);
         for (int pass = 0; pass < 8; ++pass) {
-            const int moves = sliding.relax_pass(1, grid.surface(), {});
+            const int moves = sliding.relax_pass(1, {});
             const double after =
                 grid.cost(sliding.quads(), grid.mesh.V) + 2.5 * grid.cost(sliding.quads(), other);
             EXPECT_LE(after, before + 1e-12);
@@ -150,7 +150,7 @@ TEST(RelaxPass, FindsTheSquaresOfAFlatGrid) {
     const Grid grid(landscape(14, flat), 7, 0.3);
     SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
     const double before = grid.cost(grid.quads, grid.mesh.V);
-    for (int pass = 0; pass < 60; ++pass) sliding.relax_pass(1, grid.surface(), {});
+    for (int pass = 0; pass < 60; ++pass) sliding.relax_pass(1, {});
     EXPECT_LT(grid.cost(sliding.quads(), grid.mesh.V), 0.05 * before);
 }
 
@@ -160,7 +160,7 @@ TEST(RelaxPass, WeighsTheFrames) {
     const Positions other = sheared(grid.mesh.V, 0.5);
     const auto costs = [&](double weight) {
         SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}, {other, weight}});
-        for (int pass = 0; pass < 20; ++pass) sliding.relax_pass(1, grid.surface(), {});
+        for (int pass = 0; pass < 20; ++pass) sliding.relax_pass(1, {});
         return std::pair(grid.cost(sliding.quads(), grid.mesh.V),
                          grid.cost(sliding.quads(), other));
     };
@@ -218,7 +218,7 @@ TEST(CoverExtremities, PutsAVertexOntoASpikeForGood) {
     };
     EXPECT_LT(nearest(sliding.quads()), 1e-12);
     EXPECT_EQ(sliding.cover_extremities(0.1, {}), 0);
-    for (int pass = 0; pass < 5; ++pass) sliding.relax_pass(1, grid.surface(), {});
+    for (int pass = 0; pass < 5; ++pass) sliding.relax_pass(1, {});
     EXPECT_LT(nearest(sliding.quads()), 1e-12);
     EXPECT_GT(grid.least_jacobian(sliding.quads(), grid.mesh.V), 0);
     grid.expect_kept(sliding.quads());
@@ -248,8 +248,9 @@ TEST(RelaxQuads, TheRestShapeCanBeTheReference) {
     grid.quads.vertex[static_cast<std::size_t>(3 * 8 + 3)] = grid.above(0.61, 0.47);
     ASSERT_LE(grid.least_jacobian(grid.quads, grid.mesh.V), 0);
     const MemorySequence sequence(grid.mesh.F, {sheared(grid.mesh.V, 0.2)}, grid.mesh.V);
-    const QuadMesh after = relax_quads(grid.quads, {{sequence, sequence.read_frame(0)}}, grid.topology, grid.metric,
-                                       {.sampled_frames = 1, .reference_is_rest_shape = true}, {});
+    const QuadMesh after = relax_quads(
+        grid.quads, {{sequence, sequence.read_rest_shape()}}, grid.topology, grid.metric,
+        {.sampled_frames = 1, .reference_frame = std::nullopt}, {});
     EXPECT_GT(grid.least_jacobian(after, grid.mesh.V), 0);
     grid.expect_kept(after);
 }

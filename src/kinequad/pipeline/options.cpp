@@ -20,10 +20,13 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape,
         // Symmetric quads cannot follow what the two sides do differently: less is asked of them.
         const bool is_free =
             options.symmetry == SymmetryMode::none || options.field == CrossFieldMethod::paper;
-        options.alpha = is_free ? default_alpha(options.field) : 0.2;
+        const double symmetric = options.symmetry == SymmetryMode::exact ? 0.3 : 0.2;
+        options.alpha = is_free ? default_alpha(options.field) : symmetric;
     }
     if (!options.singularity_cost) {
-        options.singularity_cost = options.symmetry == SymmetryMode::field ? 0.2 : 0.08;
+        options.singularity_cost = options.symmetry == SymmetryMode::none    ? 0.08
+                                   : options.symmetry == SymmetryMode::exact ? 0.1
+                                                                             : 0.2;
     }
     if (!options.metric) {
         options.metric = *options.alpha == 0 ? MetricChoice::reference : MetricChoice::mean;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kinequad/deformation/deformation_tensors.h"
-#include "kinequad/extract/quad_mesh.h"
-#include "kinequad/field/cross_field.h"
+#include "kinequad/extract/mirrored_quads.h"
+#include "kinequad/field/symmetrise_field.h"
 #include "kinequad/gridmap/grid_map.h"
 #include "kinequad/mesh/refined_mesh.h"
 #include "kinequad/mesh/topology.h"
@@ -19,6 +19,15 @@
 
 namespace kinequad {
 
+/// How well quads mirror: the connectivity exactly, and how far vertices are from where the symmetry
+/// map alone would put them, in percent of the bounding-box diagonal of the reference. The map of
+/// the half is evened out, so this is not 0.
+struct MirrorQuality {
+    MirrorReport report;
+    double mean_distance_percent = 0;
+    double largest_distance_percent = 0;
+};
+
 /// What every stage of a run made.
 struct Result {
     Options options;         ///< as given, with empty fields filled in
@@ -28,6 +37,10 @@ struct Result {
     /// The input refined, where it is too coarse for the quads; symmetry is then over this.
     std::optional<RefinedMesh> refined;
     std::optional<FoundSymmetry> symmetry;  ///< where the run made use of it
+    /// How symmetric the field is; with the symmetry `field` only.
+    std::optional<FieldSymmetry> field_symmetry;
+    /// How the quads mirror; with the symmetry `exact` only.
+    std::optional<MirrorQuality> mirror;
     Domain domain;                          ///< what tensors, field and map are over
     DeformationTensors tensors;
     CrossField field;

@@ -56,6 +56,31 @@ Json field_record(const Result& result) {
             {"index_sum_in_quarters", result.field.index.sum()}};
 }
 
+/// What is known of the symmetry; null where the run made no use of it.
+Json symmetry_record(const Result& result) {
+    if (!result.symmetry) return {};
+    const SymmetryReport& report = result.symmetry->report;
+    Json record = {{"method", result.symmetry->map.method},
+                   {"involution_mean_percent", report.involution_mean_percent},
+                   {"involution_max_percent", report.involution_max_percent},
+                   {"stationary_loops", report.stationary_loops},
+                   {"stationary_paths", report.stationary_paths}};
+    if (result.field_symmetry) {
+        record["field"] = {{"mean_degrees", result.field_symmetry->mean_degrees},
+                           {"singularities", result.field_symmetry->singularities},
+                           {"partnered", result.field_symmetry->partnered}};
+    }
+    if (result.mirror) {
+        const MirrorReport& mirror = result.mirror->report;
+        record["mirror"] = {{"vertices", mirror.vertices},
+                            {"fixed_vertices", mirror.fixed_vertices},
+                            {"valid", mirror.valid()},
+                            {"mean_distance_percent", result.mirror->mean_distance_percent},
+                            {"largest_distance_percent", result.mirror->largest_distance_percent}};
+    }
+    return record;
+}
+
 Json map_record(const Result& result) {
     const GridMapReport report = verify_grid_map(result.map);
     return {{"triangles", result.map.mesh.F.rows()},
@@ -118,6 +143,7 @@ nlohmann::ordered_json make_run_record(const Result& result, const FrameSource& 
         {"name", source.name()}, {"digest", digest}, {"frames", source.frame_count()}};
     record["input"].update(counts_record(count_surface(result.topology)));
     record["edge_length"] = result.edge_length;
+    record["symmetry"] = symmetry_record(result);
     record["field"] = field_record(result);
     record["map"] = map_record(result);
     record["quads"] = {{"vertices", result.quads.vertex.size()}, {"quads", result.quads.Q.rows()}};

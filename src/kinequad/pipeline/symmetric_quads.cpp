@@ -15,6 +15,7 @@
 #include "kinequad/pipeline/solve_quads.h"
 #include "kinequad/relax/relax_quads.h"
 #include "kinequad/symmetry/even_out_half.h"
+#include "kinequad/symmetry/verify_symmetry_map.h"
 #include "kinequad/transfer/carried_sequence.h"
 
 namespace kinequad {
@@ -99,14 +100,31 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
                                    metric_of(topology, reference), options, context)
                            .vertex;
     }
-    const MirrorReport report = verify_mirror(whole);
+    return whole;
+}
+
+/// Checks that quads are their own mirror image, and measures how far they are from the map's.
+MirrorQuality judge_mirror(const SolvedSurface& surface, const SymmetryMap& map,
+                           const QuadMesh& quads) {
+    const TriangleMesh mesh{surface.reference, surface.frames.triangles()};
+    MirrorQuality quality{verify_mirror(quads)};
+    const MirrorReport& report = quality.report;
     if (!report.valid()) {
         throw VerificationError(fmt::format(
             "the quads are not their own mirror image: {} vertices, {} quads and {} vertices on "
             "the line of symmetry do not fit; please report this input",
             report.broken_vertices, report.broken_quads, report.loose_fixed_vertices));
     }
-    return whole;
+    const double percent = 100 / bounding_box_diagonal(mesh.V);
+    for (std::size_t v = 0; v < quads.vertex.size(); ++v) {
+        const Vector3 image = image_position(mesh, map.vertex_image, quads.vertex[v]);
+        const Vector3 mirror =
+            position_of(quads.vertex[at(quads.mirror[v])], mesh.V, mesh.F);
+        const double distance = percent * (mirror - image).norm();
+        quality.mean_distance_percent += distance / static_cast<double>(quads.vertex.size());
+        quality.largest_distance_percent = std::max(quality.largest_distance_percent, distance);
+    }
+    return quality;
 }
 
 }  // namespace
@@ -124,6 +142,9 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     }
     finish_stage("symmetry");
     solve_field({{frames, reference, metric}}, result, context, finish_stage);
+
+    result.field_symmetry = measure_field_symmetry(topology, metric, result.field, map, reference,
+                                                   frames.triangles(), 3 * result.edge_length);
 
     // The map is made over the surface with the curve inserted.
     Domain cut;
@@ -168,7 +189,10 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
     finish_stage("symmetry");
 
     solve_field(views, result, context, finish_stage);
-    return mirror_quads(surface, result, solve_quads(views, result, context, finish_stage), context);
+    QuadMesh quads = mirror_quads(surface, result,
+                                  solve_quads(views, result, context, finish_stage), context);
+    result.mirror = judge_mirror(surface, result.symmetry->map, quads);
+    return quads;
 }
 
 }  // namespace kinequad

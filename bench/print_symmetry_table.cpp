@@ -1,0 +1,200 @@
+// Prints the tables of scripts/symmetry: `kinequad_symmetry_table --data FOLDER SEQUENCE...`, of what
+// it left in out/symmetry.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "kinequad/io/files.h"
+#include "kinequad/io/open_sequence.h"
+#include "kinequad/measure/quad_shape.h"
+
+namespace {
+
+using Json = nlohmann::json;
+using kinequad::Positions;
+using kinequad::Quads;
+using kinequad::Vector3;
+
+std::filesystem::path folder_of(const std::string& sequence) {
+    return std::filesystem::path("out/symmetry") / sequence;
+}
+
+Json record_of(const std::string& sequence, const std::string& mode) {
+    const auto path = folder_of(sequence) / mode / "run.json";
+    return std::filesystem::exists(path) ? Json::parse(kinequad::read_text_file(path)) : Json();
+}
+
+/// CPU time of some stages, in seconds.
+double seconds_of(const Json& record, const std::vector<std::string>& stages) {
+    double sum = 0;
+    for (const Json& stage : record["stages"]) {
+        if (std::count(stages.begin(), stages.end(), stage["stage"].get<std::string>()) > 0) {
+            sum += stage["cpu_seconds"].get<double>();
+        }
+    }
+    return sum;
+}
+
+/// Errors of the map against the true mirror vertices, mean and 99th percentile, in percent.
+std::string errors_against_truth(const std::string& sequence, const std::filesystem::path& data,
+                                 const Json& map) {
+    if (sequence.rfind("makehuman", 0) != 0) return "";
+    std::ifstream file(data / "sequences" / "makehuman_mirror.txt");
+    std::vector<int> mirror;
+    for (int v = 0; file >> v;) mirror.push_back(v);
+    const auto frames =
+        kinequad::open_sequence((data / "sequences" / (sequence + ".obj")).string());
+    const Positions V = frames->read_rest_shape();
+    const auto& F = frames->triangles();
+    std::vector<double> errors;
+    for (std::size_t v = 0; v < mirror.size(); ++v) {
+        const Json& image = map["image"][v];
+        Vector3 place = Vector3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            place += image[static_cast<std::size_t>(k + 1)].get<double>() *
+                     V.row(F(image[0].get<int>(), k)).transpose();
+        }
+        errors.push_back(100 * (place - V.row(mirror[v]).transpose()).norm() /
+                         kinequad::bounding_box_diagonal(V));
+    }
+    std::sort(errors.begin(), errors.end());
+    double mean = 0;
+    for (const double error : errors) mean += error / static_cast<double>(errors.size());
+    return fmt::format("{:.4f} / {:.3f}", mean, errors[errors.size() * 99 / 100]);
+}
+
+/// Mean angle deviation over all frames of the solved and of the mirrored half, in degrees, and the
+/// largest distance of a vertex from the reflection of its mirror vertex in the plane x = 0, in
+/// percent of the diagonal.
+struct Halves {
+    double solved = 0;
+    double mirrored = 0;
+    double reflection_percent = 0;
+};
+
+Halves measure_halves(const std::string& sequence) {
+    const auto folder = folder_of(sequence) / "exact";
+    const auto frames = kinequad::open_sequence((folder / "quads.obj").string());
+    const Quads Q = kinequad::require_quads(frames->polygons(), "quads.obj");
+    const Json file = Json::parse(kinequad::read_text_file(folder / "mirror.json"));
+    const std::vector<int> mirror = file["mirror"].get<std::vector<int>>();
+    const Quads first = Q.topRows(Q.rows() / 2);
+    const Quads second = Q.bottomRows(Q.rows() / 2);
+    Halves halves;
+    for (int f = 0; f < frames->frame_count(); ++f) {
+        const Positions X = frames->read_frame(f);
+        halves.solved += kinequad::measure_shape(X, first).angle_deviation_mean;
+        halves.mirrored += kinequad::measure_shape(X, second).angle_deviation_mean;
+        const double percent = 100 / kinequad::bounding_box_diagonal(X);
+        for (Eigen::Index v = 0; v < X.rows(); ++v) {
+            Vector3 image = X.row(mirror[static_cast<std::size_t>(v)]).transpose();
+            image[0] = -image[0];
+            halves.reflection_percent = std::max(halves.reflection_percent,
+                                                 percent * (X.row(v).transpose() - image).norm());
+        }
+    }
+    halves.solved /= frames->frame_count();
+    halves.mirrored /= frames->frame_count();
+    return halves;
+}
+
+void print_map(const std::string& sequence, const std::filesystem::path& data) {
+    const auto path = folder_of(sequence) / "symmetry.json";
+    if (!std::filesystem::exists(path)) {
+        fmt::print("| {} | no map |\n", sequence);
+        return;
+    }
+    const Json map = Json::parse(kinequad::read_text_file(path));
+    fmt::print("| {} | {} | {:.3f} | {} | {} |\n", sequence,
+               errors_against_truth(sequence, data, map),
+               map["quality"]["involution_mean_percent"].get<double>(),
+               map["quality"]["reversed_triangles"].get<int>(), map["stationary"].size());
+}
+
+void print_quads(const std::string& sequence) {
+    for (const char* mode : {"none", "field", "exact"}) {
+        const Json record = record_of(sequence, mode);
+        if (record.is_null()) {
+            fmt::print("| {} | {} | no result |\n", sequence, mode);
+            continue;
+        }
+        const Json& metrics = record["metrics"];
+        std::string field;
+        if (record["symmetry"].contains("field")) {
+            const Json& symmetry = record["symmetry"]["field"];
+            field = fmt::format("{:.2f} | {} of {}", symmetry["mean_degrees"].get<double>(),
+                                symmetry["partnered"].get<int>(),
+                                symmetry["singularities"].get<int>());
+        } else {
+            field = " | ";
+        }
+        fmt::print("| {} | {} | {} | {} | {} | {:.2f} | {:.3f} | {} | {:.1f} | {:.2f} |\n",
+                   sequence, mode, metrics["vertices"].get<int>(),
+                   metrics["singular_vertices"].get<int>(), field,
+                   metrics["mean"]["angle_deviation_mean"].get<double>(),
+                   metrics["mean"]["hausdorff_percent"].get<double>(),
+                   metrics["folded_quads"].at(0).get<int>(),
+                   metrics["mean"]["folded_quads"].get<double>(),
+                   seconds_of(record, {"field", "map", "extraction"}));
+    }
+}
+
+void print_mirror(const std::string& sequence) {
+    const Json record = record_of(sequence, "exact");
+    if (record.is_null()) {
+        fmt::print("| {} | no result |\n", sequence);
+        return;
+    }
+    const Json& mirror = record["symmetry"]["mirror"];
+    const Halves halves = measure_halves(sequence);
+    const auto [better, worse] = std::minmax(halves.solved, halves.mirrored);
+    const Json plain = record_of(sequence, "none");
+    const std::vector<std::string> stages = {"field", "map", "extraction"};
+    fmt::print("| {} | {} | {} | {} | {:.2f} / {:.2f} | {:.3f} | {:.2f} / {:.2f} | {:.1e} | {} |\n",
+               sequence, mirror["valid"].get<bool>() ? "yes" : "NO", mirror["vertices"].get<int>(),
+               mirror["fixed_vertices"].get<int>(), halves.solved, halves.mirrored, worse / better,
+               mirror["mean_distance_percent"].get<double>(),
+               mirror["largest_distance_percent"].get<double>(), halves.reflection_percent,
+               plain.is_null() ? "-"
+                               : fmt::format("{:.2f}", seconds_of(record, stages) /
+                                                           seconds_of(plain, stages)));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        if (argc < 4 || std::string(argv[1]) != "--data") {
+            fmt::print(stderr, "usage: kinequad_symmetry_table --data FOLDER SEQUENCE...\n");
+            return 2;
+        }
+        const std::filesystem::path data = argv[2];
+        const std::vector<std::string> sequences(argv + 3, argv + argc);
+        fmt::print(
+            "| map of | error against the true map %, mean / 99 % | S(S(p)) %, mean | reversed "
+            "triangles | lines |\n|---|---|---|---|---|\n");
+        for (const std::string& sequence : sequences) print_map(sequence, data);
+        fmt::print(
+            "\n| quads of | symmetry | vertices | singular | field error deg | partnered | angle "
+            "deg, all frames | Hausdorff %, all frames | folded, reference | folded, all frames | "
+            "CPU s, field + map + extraction |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+        for (const std::string& sequence : sequences) print_quads(sequence);
+        fmt::print(
+            "\n| mirror of | verified | vertices | on the line | angle deg, solved / mirrored half "
+            "| ratio | distance from the map %, mean / largest | reflection in x = 0 % | CPU, to "
+            "none |\n|---|---|---|---|---|---|---|---|---|\n");
+        for (const std::string& sequence : sequences) print_mirror(sequence);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "kinequad_symmetry_table: error: {}\n", error.what());
+        return 1;
+    }
+    return 0;
+}

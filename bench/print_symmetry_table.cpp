@@ -1,5 +1,5 @@
-// Prints the tables of scripts/symmetry: `kinequad_symmetry_table --data FOLDER SEQUENCE...`, of what
-// it left in out/symmetry.
+// Prints the tables of scripts/symmetry: `kinequad_symmetry_table --data FOLDER SEQUENCE...`, of
+// what it left in out/symmetry.
 
 #include <fmt/format.h>
 
@@ -130,20 +130,19 @@ void print_quads(const std::string& sequence) {
         std::string field;
         if (record["symmetry"].contains("field")) {
             const Json& symmetry = record["symmetry"]["field"];
-            field = fmt::format("{:.2f} | {} of {}", symmetry["mean_degrees"].get<double>(),
-                                symmetry["partnered"].get<int>(),
-                                symmetry["singularities"].get<int>());
+            field =
+                fmt::format("{:.2f} | {} of {}", symmetry["mean_degrees"].get<double>(),
+                            symmetry["partnered"].get<int>(), symmetry["singularities"].get<int>());
         } else {
             field = " | ";
         }
-        fmt::print("| {} | {} | {} | {} | {} | {:.2f} | {:.3f} | {} | {:.1f} | {:.2f} |\n",
-                   sequence, mode, metrics["vertices"].get<int>(),
-                   metrics["singular_vertices"].get<int>(), field,
-                   metrics["mean"]["angle_deviation_mean"].get<double>(),
-                   metrics["mean"]["hausdorff_percent"].get<double>(),
-                   metrics["folded_quads"].at(0).get<int>(),
-                   metrics["mean"]["folded_quads"].get<double>(),
-                   seconds_of(record, {"field", "map", "extraction"}));
+        fmt::print(
+            "| {} | {} | {} | {} | {} | {:.2f} | {:.3f} | {} | {:.1f} | {:.2f} |\n", sequence, mode,
+            metrics["vertices"].get<int>(), metrics["singular_vertices"].get<int>(), field,
+            metrics["mean"]["angle_deviation_mean"].get<double>(),
+            metrics["mean"]["hausdorff_percent"].get<double>(),
+            metrics["folded_quads"].at(0).get<int>(), metrics["mean"]["folded_quads"].get<double>(),
+            seconds_of(record, {"field", "map", "extraction"}));
     }
 }
 
@@ -163,9 +162,9 @@ void print_mirror(const std::string& sequence) {
                mirror["fixed_vertices"].get<int>(), halves.solved, halves.mirrored, worse / better,
                mirror["mean_distance_percent"].get<double>(),
                mirror["largest_distance_percent"].get<double>(), halves.reflection_percent,
-               plain.is_null() ? "-"
-                               : fmt::format("{:.2f}", seconds_of(record, stages) /
-                                                           seconds_of(plain, stages)));
+               plain.is_null()
+                   ? "-"
+                   : fmt::format("{:.2f}", seconds_of(record, stages) / seconds_of(plain, stages)));
 }
 
 }  // namespace

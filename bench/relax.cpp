@@ -29,7 +29,8 @@ void bench_relax_quads(benchmark::State& state) {
     const Topology& topology = shape.map.topology;
     const IntrinsicMetric metric = metric_of(topology, shape.mesh.V);
     for (auto _ : state) {
-        benchmark::DoNotOptimize(relax_quads(quads, {{sequence, sequence.read_frame(0)}}, topology, metric, {}, Context{}));
+        benchmark::DoNotOptimize(relax_quads(quads, {{sequence, sequence.read_frame(0)}}, topology,
+                                             metric, {}, Context{}));
     }
     state.counters["quads"] = static_cast<double>(quads.Q.rows());
 }

@@ -221,9 +221,10 @@ void add_method_options(CLI::App& app, RunCommand& command) {
            "degrees; 0: none")
         ->check(CLI::Range(0.0, 180.0))
         ->capture_default_str();
-    app.add_option("--singularity-cost", options.singularity_cost,
-                   "Energy that one singularity may cost, in squared radians (convex only) [0.08; 0.1 "
-                   "with --symmetry exact, 0.2 with field]");
+    app.add_option(
+        "--singularity-cost", options.singularity_cost,
+        "Energy that one singularity may cost, in squared radians (convex only) [0.08; 0.1 "
+        "with --symmetry exact, 0.2 with field]");
     app.add_option("--relax", options.relax_rounds,
                    "Rounds in which the vertices slide over the surface towards squares; 0: none")
         ->check(CLI::NonNegativeNumber)

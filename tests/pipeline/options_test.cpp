@@ -23,10 +23,12 @@ void expect_refused(const Options& options, const std::string& option) {
 
 TEST(Options, DefaultsDependOnTheRecipe) {
     Options options;
-    EXPECT_EQ(resolve_options(options, 10, false, false).alpha, default_alpha(CrossFieldMethod::convex));
+    EXPECT_EQ(resolve_options(options, 10, false, false).alpha,
+              default_alpha(CrossFieldMethod::convex));
     EXPECT_EQ(resolve_options(options, 10, false, false).metric, MetricChoice::mean);
     options.field = CrossFieldMethod::paper;
-    EXPECT_EQ(resolve_options(options, 10, false, false).alpha, default_alpha(CrossFieldMethod::paper));
+    EXPECT_EQ(resolve_options(options, 10, false, false).alpha,
+              default_alpha(CrossFieldMethod::paper));
 }
 
 TEST(Options, LandmarksAskForMirroredQuads) {
@@ -64,7 +66,8 @@ TEST(Options, RefusesValuesOutOfRange) {
     options.vertices = 0;
     expect_refused(options, "--vertices");
     options.edge_length = 0.1;
-    EXPECT_NO_THROW(resolve_options(options, 10, false, false)) << "--vertices has no say beside a length";
+    EXPECT_NO_THROW(resolve_options(options, 10, false, false))
+        << "--vertices has no say beside a length";
 }
 
 TEST(Options, TheReferenceIsAFrameOfTheInput) {

@@ -70,7 +70,6 @@ TEST(Program, AnswersWrongUsageWithCode2) {
     expect_refused(scratch, "run -o out", 2, "INPUT");
     expect_refused(scratch, "run one.obj", 2, "--output");
     expect_refused(scratch, "run one.obj -o out --vertices many", 2, "--vertices");
-    expect_refused(scratch, "run one.obj -o out --symmetry field -q", 2, "not in this version");
     expect_refused(scratch, "run one.obj -o out --alpha 1.5 -q", 2, "--alpha");
     expect_refused(scratch, "run one.obj -o out --reference 1 -q", 2, "--reference 1");
     expect_refused(scratch, "run one.obj -o out --reference rest -q", 2, "no rest shape");

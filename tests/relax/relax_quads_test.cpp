@@ -177,7 +177,8 @@ TEST(UnfoldPass, OpensFoldedQuads) {
     ASSERT_LE(grid.least_jacobian(grid.quads, grid.mesh.V), 0);
     SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
     int folded = 1;
-    for (int pass = 0; pass < 5 && folded > 0; ++pass) folded = sliding.unfold_pass(0.15, 0.15, 0, {});
+    for (int pass = 0; pass < 5 && folded > 0; ++pass)
+        folded = sliding.unfold_pass(0.15, 0.15, 0, {});
     EXPECT_EQ(folded, 0);
     EXPECT_GT(grid.least_jacobian(sliding.quads(), grid.mesh.V), 0);
     grid.expect_kept(sliding.quads());
@@ -229,9 +230,8 @@ TEST(RelaxQuads, ImprovesAllFramesTogetherAndKeepsTheMesh) {
     std::vector<Positions> frames;
     for (int f = 0; f < 5; ++f) frames.push_back(sheared(grid.mesh.V, 0.3 * f - 0.6));
     const MemorySequence sequence(grid.mesh.F, frames);
-    const QuadMesh after =
-        relax_quads(grid.quads, {{sequence, sequence.read_frame(2)}}, grid.topology, grid.metric,
-                    {.reference_frame = 2}, {});
+    const QuadMesh after = relax_quads(grid.quads, {{sequence, sequence.read_frame(2)}},
+                                       grid.topology, grid.metric, {.reference_frame = 2}, {});
     grid.expect_kept(after);
     double cost_before = 0;
     double cost_after = 0;
@@ -248,9 +248,9 @@ TEST(RelaxQuads, TheRestShapeCanBeTheReference) {
     grid.quads.vertex[static_cast<std::size_t>(3 * 8 + 3)] = grid.above(0.61, 0.47);
     ASSERT_LE(grid.least_jacobian(grid.quads, grid.mesh.V), 0);
     const MemorySequence sequence(grid.mesh.F, {sheared(grid.mesh.V, 0.2)}, grid.mesh.V);
-    const QuadMesh after = relax_quads(
-        grid.quads, {{sequence, sequence.read_rest_shape()}}, grid.topology, grid.metric,
-        {.sampled_frames = 1, .reference_frame = std::nullopt}, {});
+    const QuadMesh after =
+        relax_quads(grid.quads, {{sequence, sequence.read_rest_shape()}}, grid.topology,
+                    grid.metric, {.sampled_frames = 1, .reference_frame = std::nullopt}, {});
     EXPECT_GT(grid.least_jacobian(after, grid.mesh.V), 0);
     grid.expect_kept(after);
 }
@@ -260,8 +260,10 @@ TEST(RelaxQuads, TheSameInputGivesTheSameMesh) {
     const MemorySequence sequence(grid.mesh.F, {grid.mesh.V, sheared(grid.mesh.V, 0.5)});
     Context one;
     one.threads = 1;
-    const QuadMesh a = relax_quads(grid.quads, {{sequence, sequence.read_frame(0)}}, grid.topology, grid.metric, {}, one);
-    const QuadMesh b = relax_quads(grid.quads, {{sequence, sequence.read_frame(0)}}, grid.topology, grid.metric, {}, {});
+    const QuadMesh a = relax_quads(grid.quads, {{sequence, sequence.read_frame(0)}}, grid.topology,
+                                   grid.metric, {}, one);
+    const QuadMesh b = relax_quads(grid.quads, {{sequence, sequence.read_frame(0)}}, grid.topology,
+                                   grid.metric, {}, {});
     for (std::size_t v = 0; v < a.vertex.size(); ++v) {
         EXPECT_EQ(a.vertex[v].triangle, b.vertex[v].triangle);
         EXPECT_EQ(a.vertex[v].barycentric, b.vertex[v].barycentric);

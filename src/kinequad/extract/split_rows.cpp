@@ -36,8 +36,7 @@ std::vector<char> row_of(const QuadTopology& topology, int edge) {
         stack.pop_back();
         for (const int side : {h, topology.twin[at(h)]}) {
             if (side < 0) continue;
-            const int opposite =
-                topology.edge[at(QuadTopology::next(QuadTopology::next(side)))];
+            const int opposite = topology.edge[at(QuadTopology::next(QuadTopology::next(side)))];
             if (is_in_row[at(opposite)]) continue;
             is_in_row[at(opposite)] = 1;
             stack.push_back(opposite);
@@ -66,8 +65,7 @@ QuadMesh split_rows_across_curve(
             const int b = topology.target(h);
             const bool is_boundary = topology.is_boundary_edge(e);
             middle_of[at(e)] = static_cast<int>(quads.vertex.size());
-            quads.vertex.push_back(
-                middle({quads.vertex[at(a)], quads.vertex[at(b)]}, is_boundary));
+            quads.vertex.push_back(middle({quads.vertex[at(a)], quads.vertex[at(b)]}, is_boundary));
             is_on_curve.push_back(is_boundary && is_on_curve[at(a)] && is_on_curve[at(b)] ? 1 : 0);
         }
         std::vector<std::array<int, 4>> split;

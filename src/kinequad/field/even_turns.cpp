@@ -84,8 +84,8 @@ std::vector<double> even_turns(const Topology& topology, const IntrinsicMetric& 
         const Eigen::VectorXd x =
             solve_chain(topology, metric, bend, chain, 1.5 * options.edge_length);
         for (std::size_t i = 0; i < chain.half_edges.size(); ++i) {
-            turned[at(topology.edge[at(chain.half_edges[i])])] = std::clamp(
-                x[static_cast<Eigen::Index>(i)], -largest_turn, largest_turn);
+            turned[at(topology.edge[at(chain.half_edges[i])])] =
+                std::clamp(x[static_cast<Eigen::Index>(i)], -largest_turn, largest_turn);
         }
     }
     return turned;

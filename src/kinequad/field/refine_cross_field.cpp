@@ -47,14 +47,12 @@ CrossField refine_cross_field(const CrossField& field, const Topology& topology,
         if (coarse >= 0 && fine.parent[at(h / 3)] != fine.parent[at(other / 3)]) {
             const int edge = topology.edge[at(coarse)];
             const int lower = topology.edge_half_edge[at(edge)];
-            const double residual = field.angle[lower / 3] +
-                                    frame_rotation(topology, metric, lower) +
-                                    quarter * field.period_jump[edge] -
-                                    field.angle[topology.twin[at(lower)] / 3];
+            const double residual =
+                field.angle[lower / 3] + frame_rotation(topology, metric, lower) +
+                quarter * field.period_jump[edge] - field.angle[topology.twin[at(lower)] / 3];
             wanted = coarse == lower ? residual : -residual;
         }
-        const double without = result.angle[h / 3] +
-                               frame_rotation(fine_topology, fine_metric, h) -
+        const double without = result.angle[h / 3] + frame_rotation(fine_topology, fine_metric, h) -
                                result.angle[other / 3];
         result.period_jump[e] = nearest_quarter(wanted - without);
     }

@@ -51,9 +51,9 @@ private:
             // Directions go the other way: from across the edge to here.
             turn -= frame_rotation(topology_, metric_, crossed);
             h = next;
-            const bool is_known =
-                std::any_of(ring.begin(), ring.end(),
-                            [&](const RingTriangle& r) { return r.triangle == h / 3; });
+            const bool is_known = std::any_of(ring.begin(), ring.end(), [&](const RingTriangle& r) {
+                return r.triangle == h / 3;
+            });
             if (is_known) {
                 // Half of the ring is reached the other way around.
                 if (counter_clockwise) continue;
@@ -96,8 +96,8 @@ CrossFieldTargets average_over_orbits(const Topology& topology, const IntrinsicM
         const std::vector<RingTriangle>& ring = ring_of[at(middle)];
         for (const RingTriangle& r : ring) {
             const double distance = (r.centre - ring.front().centre).norm() / deviation;
-            sum += std::exp(-distance * distance / 2) *
-                   fourth_power(field.angle[r.triangle] + r.turn);
+            sum +=
+                std::exp(-distance * distance / 2) * fourth_power(field.angle[r.triangle] + r.turn);
         }
         return sum;
     };

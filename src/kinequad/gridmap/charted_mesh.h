@@ -18,10 +18,10 @@ struct ChartedMesh {
     std::vector<int> origin;    ///< 3m: vertex at a corner
     std::vector<int> twin;      ///< 3m: half-edge across, -1 on the boundary
     std::vector<int> rotation;  ///< 3m: quarter turns from this triangle's chart to the one across
-    std::vector<Complex> target;       ///< 3m: corner in the chart of its triangle, in cells
-    std::vector<char> is_line;  ///< 3m: nonzero on both half-edges of an edge inside the surface
-                                ///< that has to lie on an integer line
-    std::vector<int> parent;           ///< m: input triangle
+    std::vector<Complex> target;  ///< 3m: corner in the chart of its triangle, in cells
+    std::vector<char> is_line;    ///< 3m: nonzero on both half-edges of an edge inside the surface
+                                  ///< that has to lie on an integer line
+    std::vector<int> parent;      ///< m: input triangle
     std::vector<Vector3> barycentric;  ///< 3m: corner in the parent's barycentric coordinates
     std::vector<int> index;            ///< n: singularity index in quarters
     std::vector<char> is_boundary;     ///< n

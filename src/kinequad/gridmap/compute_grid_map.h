@@ -23,8 +23,9 @@ struct GridMapOptions {
 double edge_length_for(const Topology& topology, const IntrinsicMetric& metric, int vertex_count);
 
 /// Computes an integer-grid map along a cross field: no triangle is flipped, singular vertices,
-/// the boundary and the wanted lines lie on the integer grid. The input is refined where singularities crowd. Throws
-/// `GridMapError` where no such map is found, saying what stood in the way. docs/gridmap.md
+/// the boundary and the wanted lines lie on the integer grid. The input is refined where
+/// singularities crowd. Throws `GridMapError` where no such map is found, saying what stood in the
+/// way. docs/gridmap.md
 GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric,
                          const CrossField& field, const GridMapOptions& options,
                          const Context& context);

@@ -58,7 +58,8 @@ bool ConeTriangulation::move(const Eigen::VectorXd& step) {
     };
     for (const int t : alive_) renew_velocity(t);
     double left = 1;
-    const int most_flips = 20 * triangle_count() + 20;
+    // A move that takes more winds the nodes around one another.
+    const int most_flips = 2 * triangle_count() + 50;
     while (true) {
         int first = -1;
         double soonest = std::numeric_limits<double>::infinity();

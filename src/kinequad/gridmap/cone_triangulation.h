@@ -49,8 +49,8 @@ public:
     /// Length in cells of the edge of a half-edge, and its derivative by y.
     double edge_length(int half_edge) const;
     LinearForm<double> edge_length_gradient(int half_edge) const;
-    /// The half-edges on lines over which the apex of their triangle lies: its foot is between their
-    /// ends.
+    /// The half-edges on lines over which the apex of their triangle lies: its foot is between
+    /// their ends.
     std::vector<int> overlooked_lines() const;
     /// Height in cells of the apex of the triangle of a half-edge over it, and its derivative by y.
     double height(int half_edge) const;

@@ -39,8 +39,8 @@ struct GridMap {
     Eigen::VectorXi index;               ///< n': singularity index in quarters
     std::vector<char> is_line;  ///< 3m': nonzero where a half-edge inside has to lie on an integer
                                 ///< line, as the boundary does; empty for none
-    double wanted_quads = 0;             ///< number of quads that was asked for
-    double quads = 0;                    ///< number of quads, the area of the map in cells
+    double wanted_quads = 0;    ///< number of quads that was asked for
+    double quads = 0;           ///< number of quads, the area of the map in cells
 };
 
 /// The coordinate turned counter-clockwise by `quarters` quarter turns.
@@ -56,7 +56,7 @@ struct GridMapReport {
         0;                      ///< singular vertices and boundary corners off the integer grid
     int wrong_cone_angles = 0;  ///< vertices whose angle sum in the map is not (4 - index) quarters
                                 ///< (on the boundary (2 - index) quarters)
-    int unaligned_edges = 0;  ///< half-edges on the boundary or a line off the integer lines
+    int unaligned_edges = 0;    ///< half-edges on the boundary or a line off the integer lines
     bool valid() const;
 };
 

@@ -162,9 +162,9 @@ private:
             for (const int corner : {h, end}) {
                 const int v = mesh_.origin[at(corner)];
                 if (coordinate_[at(v)][at((k + frame_[at(corner)].turns) & 1)].is_whole) continue;
-                throw GridMapError(fmt::format(
-                    "the cross field is not aligned with the {} at vertex {}",
-                    on_boundary ? "boundary" : "line", v));
+                throw GridMapError(
+                    fmt::format("the cross field is not aligned with the {} at vertex {}",
+                                on_boundary ? "boundary" : "line", v));
             }
             const IntegerCorner difference = add(corner_form(end), turned(corner_form(h), 2));
             rows_.push_back(k == 0 ? difference.u : difference.v);
@@ -334,8 +334,7 @@ void find_line_nodes(const ChartedMesh& mesh, const std::vector<int>& first,
     std::vector<std::vector<int>> along(at(mesh.vertex_count));
     for (std::size_t h = 0; h < mesh.origin.size(); ++h) {
         if (!mesh.is_line[h]) continue;
-        along[at(mesh.origin[h])].push_back(
-            mesh.origin[at(Topology::next(static_cast<int>(h)))]);
+        along[at(mesh.origin[h])].push_back(mesh.origin[at(Topology::next(static_cast<int>(h)))]);
     }
     for (int seed = 0; seed < mesh.vertex_count; ++seed) {
         if (seen[at(seed)] || along[at(seed)].empty()) continue;

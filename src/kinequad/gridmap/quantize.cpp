@@ -311,9 +311,9 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
         double room_weight;
     };
     constexpr std::array<Detour, 8> detours = {
-        {{1, 10}, {1.01, 40}, {0.99, 10}, {1, 150}, {1.02, 10}, {0.98, 40}, {1, 40}, {1.1, 150}}};
+        {{1, 10}, {1.01, 10}, {0.99, 10}, {1, 40}, {1.02, 40}, {0.98, 40}, {1, 150}, {1.1, 150}}};
     // Rounding takes about the cube of the number of unknowns: with many there are fewer attempts.
-    const int most = std::clamp(1600 / std::max(1, static_cast<int>(best.size())), 4, 16);
+    const int most = std::clamp(3000 / std::max(1, static_cast<int>(best.size())), 8, 16);
     double centre = std::sqrt(wanted.count / cone.area());
     std::size_t blocked = 0;
     std::optional<Quantization> closest;
@@ -327,7 +327,7 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
     };
     for (int attempt = 0; attempt < most && blocked < detours.size(); ++attempt) {
         // Once there is a result, far detours cannot bring a closer one.
-        if (closest && detours[blocked].scale > 1.05) break;
+        if (closest && (blocked > 2 || detours[blocked].scale > 1.05)) break;
         const double scale = centre * detours[blocked].scale;
         ConeTriangulation scaled = cone;
         scaled.scale(scale);

@@ -29,9 +29,9 @@ private:
 
     const Topology& topology_;
     const IntrinsicMetric& metric_;
-    std::vector<char> is_line_;                ///< e
-    std::vector<std::vector<int>> lines_at_;   ///< n: edges of lines at a vertex
-    std::vector<char> is_passed_;              ///< n
+    std::vector<char> is_line_;               ///< e
+    std::vector<std::vector<int>> lines_at_;  ///< n: edges of lines at a vertex
+    std::vector<char> is_passed_;             ///< n
 };
 
 }  // namespace kinequad

@@ -128,7 +128,9 @@ private:
         barycentric[Topology::next(half_edge) % 3] = share;
         return {crossing_[at(e)], barycentric};
     }
-    bool is_crossed(int half_edge) const { return crossing_[at(topology_.edge[at(half_edge)])] >= 0; }
+    bool is_crossed(int half_edge) const {
+        return crossing_[at(topology_.edge[at(half_edge)])] >= 0;
+    }
 
     void add(int t, int side, const Corner& a, const Corner& b, const Corner& c) {
         split_.mesh.parent.push_back(t);

@@ -34,8 +34,8 @@ std::vector<char> curve_vertices(const QuadMesh& quads, const Domain& domain) {
     std::vector<char> result;
     for (int v = 0; v < topology.vertex_count; ++v) {
         const SurfacePoint& point = quads.vertex[static_cast<std::size_t>(v)];
-        const bool is_on_curve = topology.is_boundary_vertex(v) &&
-                                 lies_on_curve(domain.surface, domain.topology, point);
+        const bool is_on_curve =
+            topology.is_boundary_vertex(v) && lies_on_curve(domain.surface, domain.topology, point);
         result.push_back(is_on_curve ? 1 : 0);
     }
     return result;

@@ -14,9 +14,9 @@ namespace kinequad {
 struct Domain {
     /// Its triangles over the input's. `mirrored` is empty where the domain is no half.
     SymmetricHalf surface;
-    Topology topology;       ///< of `surface.mesh`
-    IntrinsicMetric metric;  ///< that the field and the map are made for
-    std::vector<int> feature_edges;  ///< edges inside that become lines of the quad mesh
+    Topology topology;                  ///< of `surface.mesh`
+    IntrinsicMetric metric;             ///< that the field and the map are made for
+    std::vector<int> feature_edges;     ///< edges inside that become lines of the quad mesh
     std::vector<int> avoided_vertices;  ///< that singularities should keep away from
     /// Directions that crosses have to keep, beside edges.
     std::vector<FixedDirection> fixed_directions;

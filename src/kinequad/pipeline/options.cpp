@@ -8,8 +8,7 @@
 
 namespace kinequad {
 
-Options resolve_options(Options options, int frame_count, bool has_rest_shape,
-                        bool has_landmarks) {
+Options resolve_options(Options options, int frame_count, bool has_rest_shape, bool has_landmarks) {
     const auto check = [](bool condition, const std::string& message) {
         require(condition, InputFault::usage, message);
     };

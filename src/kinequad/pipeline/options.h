@@ -30,9 +30,8 @@ struct Options {
     double edge_length = 0;  ///< wanted quad edge length in units of the input; 0: from `vertices`
     /// Recipe of the cross field; `paper` is the energy and solver of Du and Tu.
     CrossFieldMethod field = CrossFieldMethod::convex;
-    /// Influence of the animation on the cross field; empty: what was measured best with `field` and
-    /// `symmetry`.
-    /// With 0 the run sees a single pose, the reference frame.
+    /// Influence of the animation on the cross field; empty: what was measured best with `field`
+    /// and `symmetry`. With 0 the run sees a single pose, the reference frame.
     std::optional<double> alpha;
     double curvature = 0.1;  ///< influence of the curvature on the cross field (`convex` only)
     /// Edges across which the reference frame turns by more than this are features, which crosses
@@ -57,7 +56,6 @@ inline bool is_single_pose(const Options& options) {
 /// `options` with empty fields filled in by their defaults, for an input with or without landmarks.
 /// Throws `InputError` (usage) where a
 /// value is out of its range, `reference` for `frame_count` frames and `has_rest_shape`.
-Options resolve_options(Options options, int frame_count, bool has_rest_shape,
-                        bool has_landmarks);
+Options resolve_options(Options options, int frame_count, bool has_rest_shape, bool has_landmarks);
 
 }  // namespace kinequad

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/mesh/refine_long_edges.h"
 
@@ -11,7 +9,7 @@ namespace kinequad {
 namespace {
 
 /// Length of the longest edge that is left, in quad edges.
-const double longest_edge = std::getenv("KQ_LONGEST") ? std::atof(std::getenv("KQ_LONGEST")) : 2;
+constexpr double longest_edge = 2;
 
 }  // namespace
 

@@ -19,9 +19,9 @@
 
 namespace kinequad {
 
-/// How well quads mirror: the connectivity exactly, and how far vertices are from where the symmetry
-/// map alone would put them, in percent of the bounding-box diagonal of the reference. The map of
-/// the half is evened out, so this is not 0.
+/// How well quads mirror: the connectivity exactly, and how far vertices are from where the
+/// symmetry map alone would put them, in percent of the bounding-box diagonal of the reference. The
+/// map of the half is evened out, so this is not 0.
 struct MirrorQuality {
     MirrorReport report;
     double mean_distance_percent = 0;
@@ -41,7 +41,7 @@ struct Result {
     std::optional<FieldSymmetry> field_symmetry;
     /// How the quads mirror; with the symmetry `exact` only.
     std::optional<MirrorQuality> mirror;
-    Domain domain;                          ///< what tensors, field and map are over
+    Domain domain;  ///< what tensors, field and map are over
     DeformationTensors tensors;
     CrossField field;
     GridMap map;

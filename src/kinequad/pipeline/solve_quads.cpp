@@ -90,8 +90,7 @@ void require_valid_map(const GridMap& map) {
         "translations, {} singularities off the grid, {} wrong cone angles, {} edges off their "
         "lines; please report this input",
         report.flipped_triangles, report.broken_transitions, report.fractional_translations,
-        report.fractional_singularities, report.wrong_cone_angles,
-        report.unaligned_edges));
+        report.fractional_singularities, report.wrong_cone_angles, report.unaligned_edges));
 }
 
 /// Quads of a half without edges between two vertices of the stationary curve inside.

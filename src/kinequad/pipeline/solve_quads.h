@@ -32,8 +32,8 @@ void solve_field(const std::vector<DomainView>& views, Result& result, const Con
                  const std::function<void(const char* stage)>& finish_stage);
 
 /// Makes quads of `result.field` over `result.domain`: map, extraction and relaxation, each
-/// verified. Fills in `map` and calls `finish_stage` after each stage. Returns the quads, whose vertices are points of the domain's triangles. Throws as
-/// `quadrangulate`.
+/// verified. Fills in `map` and calls `finish_stage` after each stage. Returns the quads, whose
+/// vertices are points of the domain's triangles. Throws as `quadrangulate`.
 QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const Context& context,
                      const std::function<void(const char* stage)>& finish_stage);
 

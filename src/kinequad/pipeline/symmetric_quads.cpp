@@ -62,10 +62,9 @@ std::vector<FixedDirection> curve_directions(const LevelSplit& split, const Topo
             continue;
         }
         wanted = 1;
-        const Vector2 along = lay_out_triangle(side_lengths(topology, metric, t)) *
-                              (split.mesh.barycentric.row(next) -
-                               split.mesh.barycentric.row(corner))
-                                  .transpose();
+        const Vector2 along =
+            lay_out_triangle(side_lengths(topology, metric, t)) *
+            (split.mesh.barycentric.row(next) - split.mesh.barycentric.row(corner)).transpose();
         directions.push_back({t, std::atan2(along[1], along[0])});
     }
     for (const StationaryDirection& crossed : map.stationary_direction) {
@@ -127,8 +126,7 @@ MirrorQuality judge_mirror(const SolvedSurface& surface, const SymmetryMap& map,
     const double percent = 100 / bounding_box_diagonal(mesh.V);
     for (std::size_t v = 0; v < quads.vertex.size(); ++v) {
         const Vector3 image = image_position(mesh, map.vertex_image, quads.vertex[v]);
-        const Vector3 mirror =
-            position_of(quads.vertex[at(quads.mirror[v])], mesh.V, mesh.F);
+        const Vector3 mirror = position_of(quads.vertex[at(quads.mirror[v])], mesh.V, mesh.F);
         const double distance = percent * (mirror - image).norm();
         quality.mean_distance_percent += distance / static_cast<double>(quads.vertex.size());
         quality.largest_distance_percent = std::max(quality.largest_distance_percent, distance);
@@ -166,11 +164,11 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     if (result.options.feature_angle > 0) {
         cut.feature_edges = find_feature_edges(cut.topology, pose, result.options.feature_angle);
     }
-    result.field = refine_cross_field(result.field, topology, metric, split.mesh, cut.topology,
-                                      cut.metric);
+    result.field =
+        refine_cross_field(result.field, topology, metric, split.mesh, cut.topology, cut.metric);
     result.domain = std::move(cut);
-    QuadMesh quads = solve_quads({{cut_frames, pose, result.domain.metric}}, result, context,
-                                 finish_stage);
+    QuadMesh quads =
+        solve_quads({{cut_frames, pose, result.domain.metric}}, result, context, finish_stage);
     for (SurfacePoint& point : quads.vertex) point = point_of_input(split.mesh, point);
     return quads;
 }
@@ -179,8 +177,8 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
                              const std::function<void(const char* stage)>& finish_stage) {
     const auto& [frames, topology, metric, reference] = surface;
     SymmetricHalf& half = result.domain.surface;
-    half = take_symmetric_half(topology, metric, result.symmetry->map, reference,
-                               frames.triangles());
+    half =
+        take_symmetric_half(topology, metric, result.symmetry->map, reference, frames.triangles());
     const Topology half_topology = build_topology(half.mesh.F, half.mesh.vertex_count);
     const auto length_of = [&](const CarriedSequence& side) {
         return choose_metric(side, half_topology, side.carry(reference), result.options, context);
@@ -198,8 +196,8 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
     finish_stage("symmetry");
 
     solve_field(views, result, context, finish_stage);
-    QuadMesh quads = mirror_quads(surface, result,
-                                  solve_quads(views, result, context, finish_stage), context);
+    QuadMesh quads =
+        mirror_quads(surface, result, solve_quads(views, result, context, finish_stage), context);
     result.mirror = judge_mirror(surface, result.symmetry->map, quads);
     return quads;
 }

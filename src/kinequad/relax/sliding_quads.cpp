@@ -265,8 +265,7 @@ double SlidingQuads::largest_distance() const {
         int hint = -1;
         for (int x = 0; x < topology_.vertex_count; ++x) {
             if (topology_.vertex_half_edge[at(x)] < 0) continue;
-            const ClosestPoint closest =
-                quads.find(reference.frame.input.row(x).transpose(), hint);
+            const ClosestPoint closest = quads.find(reference.frame.input.row(x).transpose(), hint);
             hint = closest.point.triangle;
             farthest = std::max(farthest, std::sqrt(closest.squared_distance));
         }

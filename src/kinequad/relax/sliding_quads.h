@@ -6,9 +6,9 @@
 
 #include "kinequad/core/context.h"
 #include "kinequad/extract/quad_mesh.h"
-#include "kinequad/mesh/line_walk.h"
 #include "kinequad/mesh/closest_points.h"
 #include "kinequad/mesh/intrinsic_metric.h"
+#include "kinequad/mesh/line_walk.h"
 #include "kinequad/relax/quad_cost.h"
 
 namespace kinequad {
@@ -20,8 +20,8 @@ struct SampledFrame {
 };
 
 /// A quad mesh whose vertices slide over the surface, watched in several frames at once. The first
-/// frames are the references: folds and distances are looked at in these. Vertices on the boundary, and those that `cover_extremities` has put in
-/// place, stay.
+/// frames are the references: folds and distances are looked at in these. Vertices on the boundary,
+/// and those that `cover_extremities` has put in place, stay.
 class SlidingQuads {
 public:
     /// `F` m x 3 triangles of the input; the first `reference_count` of `frames`, at least one, are
@@ -47,8 +47,8 @@ public:
     /// Returns the number of quads still folded there.
     int unfold_pass(double worst_jacobian, double safe_jacobian, int reach, const Context& context);
 
-    /// Largest distance between the two surfaces in the references, in units of the input, seen from
-    /// the middles of quads and edges and from the vertices of the input.
+    /// Largest distance between the two surfaces in the references, in units of the input, seen
+    /// from the middles of quads and edges and from the vertices of the input.
     double largest_distance() const;
 
     /// Number of quads folded in a reference.
@@ -127,8 +127,8 @@ private:
         corner_start_;  ///< corners of vertex v: corner_[corner_start_[v] .. corner_start_[v+1]]
     std::vector<int> corner_;  ///< corner c of quad q as 4q + c
     std::vector<char> is_pinned_;
-    std::vector<char> stays_;       ///< v: on the boundary, or told to
-    std::vector<char> slides_;      ///< v: on a line, along which it may move
+    std::vector<char> stays_;   ///< v: on the boundary, or told to
+    std::vector<char> slides_;  ///< v: on a line, along which it may move
     std::optional<LineWalk> walk_;
     std::vector<char> is_watched_;  ///< q: see `relax_pass`
 };

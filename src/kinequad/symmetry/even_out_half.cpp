@@ -23,15 +23,15 @@ constexpr double least_gain = 0.01;
 
 /// What a vertex sees of a neighbour's image, in the frame of the triangle of its own image.
 struct Sight {
-    Complex edge;            ///< from its own image to the neighbour's
-    Complex frame = 1;       ///< turns vectors in the neighbour's frame into its own
-    bool is_known = false;   ///< false where the images are too far apart
+    Complex edge;           ///< from its own image to the neighbour's
+    Complex frame = 1;      ///< turns vectors in the neighbour's frame into its own
+    bool is_known = false;  ///< false where the images are too far apart
 };
 
 class EvenMap {
 public:
-    EvenMap(const SymmetricHalf& half, const IntrinsicMetric& half_metric,
-            const Topology& topology, const IntrinsicMetric& metric)
+    EvenMap(const SymmetricHalf& half, const IntrinsicMetric& half_metric, const Topology& topology,
+            const IntrinsicMetric& metric)
         : half_(half.mesh.F),
           half_topology_(build_topology(half.mesh.F, half.mesh.vertex_count)),
           topology_(topology),
@@ -107,7 +107,8 @@ public:
             const double weight = triangle_[at(t)].weight[at(h % 3)];
             // The triangle's rotation lives in the frame of its first corner's image.
             const Complex turned = rotation_[at(t)] * frame_from_first(t, i);
-            const Complex wanted = turned * triangle_[at(t)].side[at(h % 3)] * (from_a ? 1.0 : -1.0);
+            const Complex wanted =
+                turned * triangle_[at(t)].side[at(h % 3)] * (from_a ? 1.0 : -1.0);
             const Complex residual = sight.edge - wanted;
             const int row = unknown_[at(i)];
             const int column = unknown_[at(j)];
@@ -139,7 +140,7 @@ public:
 
 private:
     struct Triangle {
-        std::array<Complex, 3> side;    ///< mirrored, in the triangle's frame
+        std::array<Complex, 3> side;     ///< mirrored, in the triangle's frame
         std::array<double, 3> weight{};  ///< cotangents
         double area = 0;
     };

@@ -14,10 +14,10 @@ namespace kinequad {
 ///
 /// As-rigid-as-possible energy: in turns every triangle chooses the reflection nearest to what
 /// happens to it, and all points move where their triangles, with cotangent weights, ask them to,
-/// by one sparse solve in the tangent planes and straight walks. The curve and boundary points stay.
-/// `half_metric` is over the edges of `build_topology(half.mesh.F, n')`, `topology` and `metric`
-/// are those of the input. The energy never rises. Throws `Cancelled`. [Sorkine and Alexa 2007]
-/// docs/symmetry.md
+/// by one sparse solve in the tangent planes and straight walks. The curve and boundary points
+/// stay. `half_metric` is over the edges of `build_topology(half.mesh.F, n')`, `topology` and
+/// `metric` are those of the input. The energy never rises. Throws `Cancelled`. [Sorkine and Alexa
+/// 2007] docs/symmetry.md
 std::vector<SurfacePoint> even_out_half(const SymmetricHalf& half,
                                         const IntrinsicMetric& half_metric,
                                         const Topology& topology, const IntrinsicMetric& metric,

@@ -76,8 +76,8 @@ int boundary_half_edge_of(const Topology& topology, const SurfacePoint& point) {
 /// curve crosses goes from crossing to crossing.
 class BoundaryMirror {
 public:
-    BoundaryMirror(const Topology& topology, const IntrinsicMetric& metric, const PoseSearch& search,
-                   const std::vector<SurfacePoint>& points)
+    BoundaryMirror(const Topology& topology, const IntrinsicMetric& metric,
+                   const PoseSearch& search, const std::vector<SurfacePoint>& points)
         : topology_(topology),
           arcs_(topology, metric),
           boundary_(boundary_half_edges(topology)),
@@ -110,8 +110,8 @@ public:
 
 private:
     BoundaryPlace nearest_place(const SymmetricHalf& half, int v) const {
-        return arcs_.locate(nearest_on_edges(topology_, boundary_, search_,
-                                             search_.place(half.mirrored[at(v)])));
+        return arcs_.locate(
+            nearest_on_edges(topology_, boundary_, search_, search_.place(half.mirrored[at(v)])));
     }
 
     void mirror_loop(SymmetricHalf& half, const std::vector<int>& vertices) const {
@@ -227,8 +227,7 @@ SurfacePoint middle_point(const SymmetricHalf& half, const Topology& topology,
                           const std::vector<Positions>& poses,
                           const std::vector<SurfacePoint>& points, bool is_on_boundary) {
     const PoseSearch search(topology, half.mesh.F, poses);
-    PoseSearch::Place wanted =
-        PoseSearch::Place::Zero(3, static_cast<Eigen::Index>(poses.size()));
+    PoseSearch::Place wanted = PoseSearch::Place::Zero(3, static_cast<Eigen::Index>(poses.size()));
     for (const SurfacePoint& point : points) {
         wanted += search.place(point) / static_cast<double>(points.size());
     }
@@ -271,12 +270,11 @@ std::vector<SurfacePoint> mirror_points(const SymmetricHalf& half, const Topolog
         }
         const int h = boundary_half_edge_of(half_topology, point);
         if (h >= 0) {
-            const double share = point.triangle == h / 3
-                                     ? point.barycentric[Topology::next(h) % 3]
-                                     : 0.0;
-            result.push_back(mirror_on_boundary(
-                arcs, half.mirrored[at(half_topology.origin[at(h)])],
-                half.mirrored[at(half_topology.target(h))], share));
+            const double share =
+                point.triangle == h / 3 ? point.barycentric[Topology::next(h) % 3] : 0.0;
+            result.push_back(mirror_on_boundary(arcs,
+                                                half.mirrored[at(half_topology.origin[at(h)])],
+                                                half.mirrored[at(half_topology.target(h))], share));
             continue;
         }
         const int start = half.mirrored[at(half.mesh.F(point.triangle, nearest))].triangle;

@@ -12,9 +12,10 @@ namespace kinequad {
 
 /// One side of a symmetric surface, up to its stationary curve.
 struct SymmetricHalf {
-    RefinedMesh mesh;                    ///< triangles on the positive side; the curve is boundary
-    std::vector<SurfacePoint> mirrored;  ///< n': images on the input; of a point of the curve itself
-    std::vector<char> is_on_curve;       ///< n': nonzero on the stationary curve
+    RefinedMesh mesh;  ///< triangles on the positive side; the curve is boundary
+    std::vector<SurfacePoint>
+        mirrored;                   ///< n': images on the input; of a point of the curve itself
+    std::vector<char> is_on_curve;  ///< n': nonzero on the stationary curve
 };
 
 /// Cuts the surface along the stationary curve of `map` and keeps the side of positive height, of
@@ -30,7 +31,8 @@ SymmetricHalf take_symmetric_half(const Topology& topology, const IntrinsicMetri
 /// half's triangle put them. A point of the curve stays, a point of the boundary goes to the
 /// boundary, evenly by length. `topology`, `metric` and `F` are those of the input.
 std::vector<SurfacePoint> mirror_points(const SymmetricHalf& half, const Topology& topology,
-                                        const IntrinsicMetric& metric, const Triangles& F, const std::vector<Positions>& frames,
+                                        const IntrinsicMetric& metric, const Triangles& F,
+                                        const std::vector<Positions>& frames,
                                         const std::vector<SurfacePoint>& points,
                                         const Context& context);
 

@@ -94,7 +94,7 @@ TEST(Program, AnswersInvalidMeshesWithCode4) {
     const ScratchFolder scratch;
     write_content(scratch / "tie.obj",
                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 1 2 3\nf 1 4 5\n");
-    expect_refused(scratch, "run tie.obj -o out -q", 4, "tie.obj: vertex 0 is non-manifold");
+    expect_refused(scratch, "run tie.obj -o out -q", 4, "tie.obj: 1 non-manifold vertex: 0");
     write_content(scratch / "flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     expect_refused(scratch, "run flat.obj -o out -q", 4, "has no area");
 }

@@ -86,7 +86,7 @@ TEST(Quadrangulate, NamesTheInputThatIsNoManifold) {
         FAIL() << "accepted";
     } catch (const InputError& error) {
         EXPECT_EQ(error.code(), ExitCode::invalid_mesh);
-        EXPECT_EQ(std::string(error.what()).rfind("fin.obj: edge 0-1 is non-manifold", 0), 0U)
+        EXPECT_EQ(std::string(error.what()).rfind("fin.obj: 1 non-manifold edge: 0-1", 0), 0U)
             << error.what();
     }
 }

@@ -116,7 +116,7 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     const FrameSource& frames = pose ? *pose : surface;
     const IntrinsicMetric metric =
         choose_metric(frames, topology, reference, result.options, context);
-    check_areas(source, topology, metric);
+    check_areas(source, topology, metric_of(topology, reference));
     result.edge_length = result.options.edge_length > 0
                              ? result.options.edge_length
                              : edge_length_for(topology, metric, result.options.vertices);

@@ -38,8 +38,7 @@ Half half_grid(int columns, int rows, bool is_tube) {
 
 TEST(MirroredQuads, JoinAlongTheLine) {
     const Half half = half_grid(3, 4, false);
-    const QuadMesh whole =
-        join_mirrored_quads(half.quads, half.quads.vertex, half.is_on_curve);
+    const QuadMesh whole = join_mirrored_quads(half.quads, half.quads.vertex, half.is_on_curve);
     const QuadTopology topology =
         build_quad_topology(whole.Q, static_cast<int>(whole.vertex.size()));
     EXPECT_EQ(topology.quad_count, 24);
@@ -52,8 +51,7 @@ TEST(MirroredQuads, JoinAlongTheLine) {
 
 TEST(MirroredQuads, ASheetWithTwoLinesBecomesATube) {
     const Half half = half_grid(3, 4, true);
-    const QuadMesh whole =
-        join_mirrored_quads(half.quads, half.quads.vertex, half.is_on_curve);
+    const QuadMesh whole = join_mirrored_quads(half.quads, half.quads.vertex, half.is_on_curve);
     EXPECT_EQ(count_irregular_vertices(
                   build_quad_topology(whole.Q, static_cast<int>(whole.vertex.size()))),
               0);

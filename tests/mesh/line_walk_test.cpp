@@ -59,8 +59,8 @@ TEST_F(SquareWalk, GoesAlongTheSideAndStopsAtTheCorner) {
     const Vector3 from = place(start);
     for (const double way : {0.02 * size, 0.3 * size, -0.05 * size, 2 * size, -2 * size}) {
         const Vector3 end = place(walk_.walk(start, step(start, {way, 0.7, 0})));
-        const double wanted = std::clamp(from[0] + way, mesh_.V.col(0).minCoeff(),
-                                         mesh_.V.col(0).maxCoeff());
+        const double wanted =
+            std::clamp(from[0] + way, mesh_.V.col(0).minCoeff(), mesh_.V.col(0).maxCoeff());
         EXPECT_NEAR(end[0], wanted, 1e-5 * size) << way;
         EXPECT_NEAR(end[1], low(), 1e-12) << "a line is never left";
     }
@@ -86,7 +86,8 @@ TEST(PoseSearch, FindsThePointThatAllPosesTogetherAreNearestTo) {
     const PoseSearch search(topology, mesh.F, poses);
     for (int t = 0; t < topology.triangle_count; t += 37) {
         const SurfacePoint there{t, Vector3(0.2, 0.5, 0.3)};
-        const SurfacePoint found = search.find(search.place(there), (t + 11) % topology.triangle_count);
+        const SurfacePoint found =
+            search.find(search.place(there), (t + 11) % topology.triangle_count);
         EXPECT_LT((position_of(found, mesh.V, mesh.F) - position_of(there, mesh.V, mesh.F)).norm(),
                   1e-9);
     }

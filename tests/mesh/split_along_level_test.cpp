@@ -84,8 +84,8 @@ TEST(SplitAlongLevel, LeavesNoTriangleMuchThinner) {
         return least;
     };
     for (const double shift : {0.001, 0.01, 0.03, 0.05, 0.11}) {
-        const Split it =
-            split_sphere(3, [&](const Vector3& p) { return p[1] - 0.2 * p[0] + shift; }, 0.2);
+        const Split it = split_sphere(
+            3, [&](const Vector3& p) { return p[1] - 0.2 * p[0] + shift; }, 0.2);
         const Topology whole = build_topology(it.split.mesh.F, it.split.mesh.vertex_count);
         EXPECT_GT(least_angle(whole, metric_of(whole, it.V)),
                   0.08 * least_angle(it.topology, it.metric))

@@ -77,10 +77,10 @@ TEST(SymmetricHalf, ImagesOfPointsAreTheirReflections) {
         mirror_points(it.half, it.topology, it.metric, mesh.F, {mesh.V, 2 * mesh.V}, points, {});
     for (std::size_t i = 0; i < points.size(); ++i) {
         const SurfacePoint here = point_of_input(it.half.mesh, points[i]);
-        EXPECT_LT((position_of(images[i], mesh.V, mesh.F) -
-                   reflected(position_of(here, mesh.V, mesh.F)))
-                      .norm(),
-                  1e-9);
+        EXPECT_LT(
+            (position_of(images[i], mesh.V, mesh.F) - reflected(position_of(here, mesh.V, mesh.F)))
+                .norm(),
+            1e-9);
     }
 }
 
@@ -94,8 +94,7 @@ TEST(EvenOutHalf, LeavesAnExactMapAlone) {
         X.row(static_cast<Eigen::Index>(v)) =
             position_of(points[v], shape.mesh.V, shape.mesh.F).transpose();
     }
-    const auto images =
-        even_out_half(it.half, metric_of(half, X), it.topology, it.metric, 5, {});
+    const auto images = even_out_half(it.half, metric_of(half, X), it.topology, it.metric, 5, {});
     EXPECT_LT(largest_error(it, images), 1e-6);
 }
 
@@ -115,8 +114,7 @@ TEST(EvenOutHalf, BringsDisplacedImagesBack) {
         it.half.mirrored[v].barycentric = Vector3::Constant(1.0 / 3);
     }
     const double before = largest_error(it, it.half.mirrored);
-    const auto images =
-        even_out_half(it.half, metric_of(half, X), it.topology, it.metric, 20, {});
+    const auto images = even_out_half(it.half, metric_of(half, X), it.topology, it.metric, 20, {});
     EXPECT_LT(largest_error(it, images), 0.3 * before);
 }
 

@@ -1,7 +1,5 @@
 #include "kinequad/pipeline/domain.h"
 
-#include <algorithm>
-
 #include "kinequad/extract/quad_topology.h"
 
 namespace kinequad {
@@ -17,14 +15,6 @@ std::vector<int> Domain::curve_edges() const {
         if (!is_on_curve(topology.target(h))) continue;
         if (!is_half() || topology.is_boundary_edge(e)) edges.push_back(e);
     }
-    return edges;
-}
-
-std::vector<int> Domain::line_edges() const {
-    std::vector<int> edges = curve_edges();
-    edges.insert(edges.end(), feature_edges.begin(), feature_edges.end());
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     return edges;
 }
 

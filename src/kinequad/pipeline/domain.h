@@ -24,8 +24,6 @@ struct Domain {
     bool is_half() const { return !surface.mirrored.empty(); }
     /// Edges of the stationary curve, ascending: on the boundary of a half, else inside.
     std::vector<int> curve_edges() const;
-    /// Edges of features and of the stationary curve.
-    std::vector<int> line_edges() const;
 };
 
 /// Which vertices (v) of quads on a half, given in its triangles, lie on the stationary curve.

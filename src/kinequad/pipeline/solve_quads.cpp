@@ -116,7 +116,7 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
     const Domain& domain = result.domain;
     GridMapOptions options;
     options.edge_length = result.edge_length;
-    options.line_edges = domain.is_half() ? domain.feature_edges : domain.line_edges();
+    if (!domain.is_half()) options.line_edges = domain.curve_edges();
     for (int attempt = 1;; ++attempt) {
         try {
             result.map =
@@ -175,7 +175,7 @@ QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const
         relax_options.reference_frame = is_single_pose(result.options) ? std::optional<int>(0)
                                         : is_frame ? std::optional<int>(result.options.reference)
                                                    : std::nullopt;
-        relax_options.line_edges = domain.line_edges();
+        relax_options.line_edges = domain.curve_edges();
         const std::vector<int> boundary = boundary_edges(domain.topology);
         relax_options.line_edges.insert(relax_options.line_edges.end(), boundary.begin(),
                                         boundary.end());

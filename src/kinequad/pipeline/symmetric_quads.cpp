@@ -10,7 +10,6 @@
 #include "kinequad/core/error.h"
 #include "kinequad/extract/mirrored_quads.h"
 #include "kinequad/field/refine_cross_field.h"
-#include "kinequad/mesh/feature_edges.h"
 #include "kinequad/mesh/split_along_level.h"
 #include "kinequad/pipeline/solve_quads.h"
 #include "kinequad/relax/relax_quads.h"
@@ -161,9 +160,6 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     const CarriedSequence cut_frames(frames, split.mesh.F, vertex_points(split.mesh));
     const Positions pose = cut_frames.carry(reference);
     cut.metric = choose_metric(cut_frames, cut.topology, pose, result.options, context);
-    if (result.options.feature_angle > 0) {
-        cut.feature_edges = find_feature_edges(cut.topology, pose, result.options.feature_angle);
-    }
     result.field =
         refine_cross_field(result.field, topology, metric, split.mesh, cut.topology, cut.metric);
     result.domain = std::move(cut);

@@ -1,0 +1,82 @@
+#include "kinequad/field/symmetrise_field.h"
+
+#include <gtest/gtest.h>
+
+#include "kinequad/field/compute_cross_field.h"
+#include "kinequad/field/refine_cross_field.h"
+#include "kinequad/field/verify_cross_field.h"
+#include "kinequad/mesh/split_along_level.h"
+#include "kinequad/symmetry/compute_mirror_map.h"
+#include "symmetry/symmetric_shapes.h"
+
+namespace kinequad {
+namespace {
+
+class SymmetricField : public testing::Test {
+protected:
+    SymmetricField()
+        : shape_(test::bumpy_ellipsoid(4)),
+          topology_(build_topology(shape_.mesh.F, static_cast<int>(shape_.mesh.V.rows()))),
+          metric_(metric_of(topology_, shape_.mesh.V)),
+          map_(compute_mirror_map(shape_.mesh, {Vector3::UnitX(), 0, 0}, metric_, {})) {}
+
+    FieldSymmetry symmetry_of(const CrossField& field) const {
+        return measure_field_symmetry(topology_, metric_, field, map_, shape_.mesh.V, shape_.mesh.F,
+                                      0.1);
+    }
+    /// Targets that are not symmetric at all: one direction in every triangle's own frame.
+    CrossFieldTargets skew_targets() const {
+        return {Eigen::VectorXcd::Constant(topology_.triangle_count, std::polar(1.0, 0.7)),
+                Eigen::VectorXd::Constant(topology_.triangle_count, 0.3)};
+    }
+
+    test::SymmetricShape shape_;
+    Topology topology_;
+    IntrinsicMetric metric_;
+    SymmetryMap map_;
+};
+
+TEST_F(SymmetricField, OrbitsMakeAFieldSymmetric) {
+    const CrossField skew = compute_cross_field(topology_, metric_, skew_targets(), {}, {});
+    EXPECT_GT(symmetry_of(skew).mean_degrees, 5);
+    const CrossFieldTargets average =
+        average_over_orbits(topology_, metric_, skew, map_, 1, Context{});
+    const CrossField field = compute_cross_field(topology_, metric_, average, {}, {});
+    EXPECT_LT(symmetry_of(field).mean_degrees, 1);
+}
+
+TEST_F(SymmetricField, TheAverageOfASymmetricFieldIsTheFieldWhereItIsSmooth) {
+    // Without targets the smoothest field of a symmetric shape, once averaged, stays where it is.
+    const CrossField skew = compute_cross_field(topology_, metric_, skew_targets(), {}, {});
+    const CrossField field = compute_cross_field(
+        topology_, metric_, average_over_orbits(topology_, metric_, skew, map_, 3, Context{}), {},
+        {});
+    const CrossFieldTargets again =
+        average_over_orbits(topology_, metric_, field, map_, 1, Context{});
+    int near = 0;
+    for (int t = 0; t < topology_.triangle_count; ++t) {
+        const Complex here = std::polar(1.0, 4 * field.angle[t]);
+        near += std::real(again.value[t] * std::conj(here)) > 0.9 ? 1 : 0;
+    }
+    EXPECT_GT(near, 0.9 * topology_.triangle_count);
+}
+
+TEST_F(SymmetricField, RefinementKeepsIndicesAndResiduals) {
+    const CrossField field = compute_cross_field(topology_, metric_, skew_targets(), {}, {});
+    const LevelSplit split = split_along_level(topology_, metric_, map_.height, 0.2);
+    const Topology fine = build_topology(split.mesh.F, split.mesh.vertex_count);
+    Positions X(split.mesh.vertex_count, 3);
+    const std::vector<SurfacePoint> points = vertex_points(split.mesh);
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        X.row(static_cast<Eigen::Index>(v)) =
+            position_of(points[v], shape_.mesh.V, shape_.mesh.F).transpose();
+    }
+    const IntrinsicMetric lengths = metric_of(fine, X);
+    const CrossField refined =
+        refine_cross_field(field, topology_, metric_, split.mesh, fine, lengths);
+    EXPECT_TRUE(verify_cross_field(fine, lengths, refined, {}).valid());
+    EXPECT_EQ(refined.index.head(field.index.size()), field.index);
+}
+
+}  // namespace
+}  // namespace kinequad

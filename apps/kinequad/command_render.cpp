@@ -16,6 +16,7 @@
 #include "kinequad/report/render_mesh.h"
 #include "kinequad/report/render_panels.h"
 #include "kinequad/report/write_png.h"
+#include "mirror_colors.h"
 #include "output_folder.h"
 
 namespace kinequad::app {
@@ -34,6 +35,8 @@ struct RenderCommand {
     int frame_step = 1;
     bool plain = false;
     bool no_markers = false;
+    std::string mirror;
+    std::string symmetry;
 
     Viewpoint viewpoint() const { return named_viewpoint(view, up == "z" ? UpAxis::z : UpAxis::y); }
 };
@@ -42,10 +45,14 @@ struct RenderCommand {
 struct DrawnInput {
     std::unique_ptr<FrameSource> source;
     RenderScene scene;  ///< without positions
+    std::string symmetry;
 
     RenderPanel panel(int frame, const Camera& camera) const {
         RenderPanel result{scene, camera, ""};
         result.scene.V = source->read_frame(frame);
+        if (!symmetry.empty()) {
+            result.scene.curves = draw_symmetry(symmetry, scene.polygons, result.scene.V).curves;
+        }
         return result;
     }
 };
@@ -60,6 +67,16 @@ std::vector<DrawnInput> open_inputs(const RenderCommand& command) {
         if (all_faces_have(faces, 4) && !command.no_markers) {
             input.scene.markers =
                 mark_irregular_vertices(input.scene.polygons, input.source->vertex_count());
+        }
+        if (!command.mirror.empty()) {
+            input.scene.polygon_colors = color_mirrored_quads(command.mirror, input.scene.polygons,
+                                                              input.source->read_frame(0));
+        }
+        if (!command.symmetry.empty()) {
+            input.symmetry = command.symmetry;
+            input.scene.polygon_colors =
+                draw_symmetry(command.symmetry, input.scene.polygons, input.source->read_frame(0))
+                    .colors;
         }
     }
     return inputs;
@@ -223,6 +240,15 @@ void add_render_command(CLI::App& program, Session& session) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     app.add_flag("--plain", command->plain, "Do not draw the edges");
+    app.add_option("--mirror", command->mirror,
+                   "The mirror.json beside mirrored quads: colours one half by place, every "
+                   "mirrored quad as its partner")
+        ->check(CLI::ExistingFile);
+    app.add_option("--symmetry", command->symmetry,
+                   "The symmetry.json of the surface: draws the line of symmetry and colours one "
+                   "side by place, the other by the place of its image")
+        ->check(CLI::ExistingFile)
+        ->excludes("--mirror");
     app.add_flag(
         "--no-markers", command->no_markers,
         "Do not mark irregular vertices of quad meshes (red: fewer than four quads, blue: more)");

@@ -49,6 +49,7 @@ private:
     bool can_lie_on_level(int v) const {
         const std::vector<int> fan = outgoing_half_edges(topology_, v);
         std::vector<int> around;
+        around.reserve(fan.size() + 1);
         for (const int h : fan) around.push_back(sign(height_[topology_.target(h)]));
         const bool is_open = topology_.is_boundary_vertex(v);
         if (is_open) {

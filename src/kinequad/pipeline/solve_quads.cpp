@@ -97,6 +97,7 @@ void require_valid_map(const GridMap& map) {
 QuadMesh separate_from_curve(QuadMesh quads, const Domain& domain,
                              const std::vector<DomainView>& views) {
     std::vector<Positions> poses;
+    poses.reserve(views.size());
     for (const DomainView& view : views) poses.push_back(view.reference);
     std::vector<char> is_on_curve = curve_vertices(quads, domain);
     return split_rows_across_curve(
@@ -180,6 +181,7 @@ QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const
         relax_options.line_edges.insert(relax_options.line_edges.end(), boundary.begin(),
                                         boundary.end());
         std::vector<RelaxView> relax_views;
+        relax_views.reserve(views.size());
         for (const DomainView& view : views) relax_views.push_back({view.frames, view.reference});
         quads =
             relax_quads(quads, relax_views, domain.topology, domain.metric, relax_options, context);

@@ -77,7 +77,10 @@ std::vector<FixedDirection> curve_directions(const LevelSplit& split, const Topo
 /// The quads of both sides, from those of the half.
 QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const QuadMesh& half,
                       const Context& context) {
-    const auto& [frames, topology, metric, reference] = surface;
+    const FrameSource& frames = surface.frames;
+    const Topology& topology = surface.topology;
+    const IntrinsicMetric& metric = surface.metric;
+    const Positions& reference = surface.reference;
     const SymmetricHalf& side = result.domain.surface;
     const std::vector<SurfacePoint> mirrored =
         mirror_points(side, topology, metric, frames.triangles(),
@@ -137,7 +140,10 @@ MirrorQuality judge_mirror(const SolvedSurface& surface, const SymmetryMap& map,
 
 QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, const Context& context,
                                const std::function<void(const char* stage)>& finish_stage) {
-    const auto& [frames, topology, metric, reference] = surface;
+    const FrameSource& frames = surface.frames;
+    const Topology& topology = surface.topology;
+    const IntrinsicMetric& metric = surface.metric;
+    const Positions& reference = surface.reference;
     const SymmetryMap& map = result.symmetry->map;
     const LevelSplit split = split_along_level(topology, metric, map.height, curve_snap_share);
     result.domain.fixed_directions = curve_directions(split, topology, metric, map);
@@ -171,7 +177,10 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
 
 QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const Context& context,
                              const std::function<void(const char* stage)>& finish_stage) {
-    const auto& [frames, topology, metric, reference] = surface;
+    const FrameSource& frames = surface.frames;
+    const Topology& topology = surface.topology;
+    const IntrinsicMetric& metric = surface.metric;
+    const Positions& reference = surface.reference;
     SymmetricHalf& half = result.domain.surface;
     half =
         take_symmetric_half(topology, metric, result.symmetry->map, reference, frames.triangles());

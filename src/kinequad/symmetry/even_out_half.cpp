@@ -150,6 +150,7 @@ private:
         if (half_topology_.vertex_half_edge[at(v)] < 0) return;
         const std::vector<int> fan = outgoing_half_edges(half_topology_, v);
         std::vector<int> around;
+        around.reserve(fan.size() + 1);
         for (const int h : fan) around.push_back(half_topology_.target(h));
         const int last = Topology::previous(fan.back());
         around.push_back(half_topology_.origin[at(last)]);

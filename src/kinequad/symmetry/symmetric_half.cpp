@@ -87,8 +87,9 @@ public:
     void run(SymmetricHalf& half) const {
         if (boundary_.empty()) return;
         const Topology half_topology = build_topology(half.mesh.F, half.mesh.vertex_count);
-        for (std::vector<int> loop : boundary_loops(half_topology)) {
+        for (const std::vector<int>& loop : boundary_loops(half_topology)) {
             std::vector<int> vertices;
+            vertices.reserve(loop.size() + 1);
             for (const int h : loop) vertices.push_back(half_topology.origin[at(h)]);
             const auto on_curve = [&](int v) { return half.is_on_curve[at(v)] != 0; };
             const auto first = std::find_if(vertices.begin(), vertices.end(), on_curve);

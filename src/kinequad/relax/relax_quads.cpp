@@ -23,6 +23,7 @@ constexpr int fitting_rounds = 6;
 std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views,
                                         const RelaxOptions& options) {
     std::vector<SampledFrame> sampled;
+    sampled.reserve(views.size());
     const auto wanted = [&](const RelaxView& view) {
         return std::clamp(options.sampled_frames, 1, view.frames.frame_count());
     };

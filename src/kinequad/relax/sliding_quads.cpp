@@ -185,7 +185,7 @@ Vector2 SlidingQuads::wanted_move(int v) const {
 /// the place of boundary vertices alone. Those on a line keep to it.
 SurfacePoint SlidingQuads::walked(int v, const SurfacePoint& start, const Vector2& move) const {
     if (slides_[at(v)]) return walk_->walk(start, move);
-    const SurfacePoint end = trace_geodesic(topology_, metric_, start, move);
+    SurfacePoint end = trace_geodesic(topology_, metric_, start, move);
     for (int k = 0; k < 3; ++k) {
         const int opposite = 3 * end.triangle + (k + 1) % 3;
         if (end.barycentric[k] < 1e-9 && topology_.twin[at(opposite)] < 0) return start;

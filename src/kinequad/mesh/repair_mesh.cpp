@@ -71,6 +71,7 @@ private:
     /// Removes triangles (ascending).
     void drop(const char* action, const std::vector<int>& dropped) {
         std::vector<int> sources;
+        sources.reserve(dropped.size());
         for (const int t : dropped) sources.push_back(source_[at(t)]);
         report(action, sources);
         std::size_t skipped = 0;

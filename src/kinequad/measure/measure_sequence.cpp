@@ -45,7 +45,7 @@ class SequenceMeter {
 public:
     SequenceMeter(const MeasuredQuads& mesh, const MeshCounts& input, const MeasureOptions& options,
                   const Context& context)
-        : mesh_(mesh), options_(options), meter_(options.distance) {
+        : mesh_(mesh), meter_(options.distance) {
         result_.input = input;
         result_.has_distance = options.measure_distance;
         if (mesh.reference) alignment_.emplace(*mesh.reference, context);
@@ -81,7 +81,6 @@ public:
 
 private:
     const MeasuredQuads& mesh_;
-    const MeasureOptions& options_;
     SurfaceDistanceMeter meter_;
     std::optional<StretchAlignment> alignment_;
     Eigen::Index vertex_count_ = 0;

@@ -40,6 +40,7 @@ struct RunCommand {
     std::string symmetry;
     std::string landmarks;
     std::string field = "convex";
+    std::string symmetrisation;
     std::string metric;
     std::string reference = "0";
     std::string format;
@@ -56,6 +57,8 @@ Options options_of(const RunCommand& command, const FrameSource& source) {
     if (command.symmetry == "field") options.symmetry = SymmetryMode::field;
     if (command.symmetry == "exact") options.symmetry = SymmetryMode::exact;
     if (command.field == "paper") options.field = CrossFieldMethod::paper;
+    if (command.symmetrisation == "orbits") options.symmetrisation = Symmetrisation::orbits;
+    if (command.symmetrisation == "term") options.symmetrisation = Symmetrisation::term;
     if (command.metric == "mean") options.metric = MetricChoice::mean;
     if (command.metric == "reference") options.metric = MetricChoice::reference;
     options.reference = parse_reference(command.reference, source);
@@ -208,10 +211,15 @@ void add_method_options(CLI::App& app, RunCommand& command) {
            "and greedy solver of Du and Tu)")
         ->check(CLI::IsMember({"convex", "paper"}))
         ->capture_default_str();
+    app.add_option("--symmetrise", command.symmetrisation,
+                   "How --symmetry field makes the cross field symmetric: term (in the energy, one "
+                   "solve) or orbits (averaged over orbits and solved again, as in the paper) "
+                   "[term; orbits with --field paper]")
+        ->check(CLI::IsMember({"orbits", "term"}));
     app.add_option(
         "--alpha", options.alpha,
         fmt::format("Influence of the animation, from 0 (see the reference frame only) to below "
-                    "1 [{}; 0.3 with --symmetry exact, 0.2 with field]",
+                    "1 [{}; 0.1 with --symmetry exact or field]",
                     default_alpha(CrossFieldMethod::convex)));
     app.add_option("--curvature", options.curvature, "Influence of the curvature (convex only)")
         ->capture_default_str();
@@ -224,7 +232,7 @@ void add_method_options(CLI::App& app, RunCommand& command) {
     app.add_option(
         "--singularity-cost", options.singularity_cost,
         "Energy that one singularity may cost, in squared radians (convex only) [0.08; 0.1 "
-        "with --symmetry exact, 0.2 with field]");
+        "with --symmetry exact or field]");
     app.add_option("--relax", options.relax_rounds,
                    "Rounds in which the vertices slide over the surface towards squares; 0: none")
         ->check(CLI::NonNegativeNumber)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinequad/field/compute_cross_field.h"
+#include "kinequad/field/field_problem.h"
 #include "kinequad/field/refine_cross_field.h"
 #include "kinequad/field/verify_cross_field.h"
 #include "kinequad/mesh/split_along_level.h"
@@ -43,6 +44,39 @@ TEST_F(SymmetricField, OrbitsMakeAFieldSymmetric) {
         average_over_orbits(topology_, metric_, skew, map_, 1, Context{});
     const CrossField field = compute_cross_field(topology_, metric_, average, {}, {});
     EXPECT_LT(symmetry_of(field).mean_degrees, 1);
+}
+
+TEST_F(SymmetricField, TheSymmetryTermMakesAFieldSymmetricInOneSolve) {
+    CrossFieldOptions options;
+    double before =
+        symmetry_of(compute_cross_field(topology_, metric_, skew_targets(), options, {}))
+            .mean_degrees;
+    for (const double weight : {0.1, 1.0, 10.0}) {
+        options.symmetry = symmetry_term(map_, weight);
+        const CrossField field =
+            compute_cross_field(topology_, metric_, skew_targets(), options, {});
+        EXPECT_TRUE(verify_cross_field(topology_, metric_, field, options).valid());
+        const double now = symmetry_of(field).mean_degrees;
+        EXPECT_LT(now, before);
+        before = now;
+    }
+    EXPECT_LT(before, 0.5);
+}
+
+TEST_F(SymmetricField, TheSymmetryTermCountsInTheEnergy) {
+    // With angles of zero every triangle misses its transport, up to quarter turns.
+    CrossFieldOptions options;
+    options.symmetry = symmetry_term(map_, 2);
+    const FieldProblem problem = make_field_problem(topology_, metric_, {}, options);
+    const FieldState still{Eigen::VectorXd::Zero(topology_.triangle_count),
+                           Eigen::VectorXi::Zero(topology_.edge_count)};
+    const Eigen::VectorXd residual = Eigen::VectorXd::Zero(topology_.edge_count);
+    double expected = 0;
+    for (int t = 0; t < topology_.triangle_count; ++t) {
+        const double miss = std::arg(std::polar(1.0, 4 * map_.transport[t])) / 4;
+        expected += 2 * miss * miss;
+    }
+    EXPECT_NEAR(field_energy(problem, still, residual), expected, 1e-9 * expected);
 }
 
 TEST_F(SymmetricField, TheAverageOfASymmetricFieldIsTheFieldWhereItIsSmooth) {

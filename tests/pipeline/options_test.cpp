@@ -39,6 +39,15 @@ TEST(Options, LandmarksAskForMirroredQuads) {
     EXPECT_EQ(resolve_options(options, 10, false, true).symmetry, SymmetryMode::none);
 }
 
+TEST(Options, ThePaperAveragesOverOrbits) {
+    EXPECT_EQ(resolve_options({}, 10, false, true).symmetrisation, Symmetrisation::term);
+    Options options;
+    options.field = CrossFieldMethod::paper;
+    EXPECT_EQ(resolve_options(options, 10, false, true).symmetrisation, Symmetrisation::orbits);
+    options.symmetrisation = Symmetrisation::term;
+    expect_refused(options, "--symmetrise");
+}
+
 TEST(Options, WithoutAnimationTheRunSeesTheReferenceFrameUnlessToldOtherwise) {
     Options options;
     options.alpha = 0;

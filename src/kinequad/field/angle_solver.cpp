@@ -43,6 +43,19 @@ Eigen::SparseMatrix<double> assemble(const FieldProblem& problem, const std::vec
         if (j >= 0) entries.emplace_back(j, j, 1);
         if (i >= 0 && j >= 0) entries.emplace_back(std::max(i, j), std::min(i, j), -1);
     }
+    const SymmetryTerm& symmetry = problem.symmetry;
+    for (int t = 0; symmetry.weight > 0 && t < problem.triangle_count; ++t) {
+        const int image = symmetry.image[at(t)];
+        if (image < 0) continue;
+        const int i = unknown[at(t)];
+        const int j = unknown[at(image)];
+        if (i >= 0) entries.emplace_back(i, i, symmetry.weight);
+        if (j >= 0) entries.emplace_back(j, j, symmetry.weight);
+        if (i < 0 || j < 0) continue;
+        // A triangle that is its own image counts both ways.
+        entries.emplace_back(std::max(i, j), std::min(i, j),
+                             i == j ? 2 * symmetry.weight : symmetry.weight);
+    }
     Eigen::SparseMatrix<double> A(size, size);
     A.setFromTriplets(entries.begin(), entries.end());
     return A;
@@ -88,6 +101,13 @@ FieldState AngleSolver::solve(const FieldProblem& problem, FieldState state) con
         if (!(problem.weight[t] > 0)) continue;
         const double difference = state.angle[t] - problem.target[t];
         downhill[t] -= problem.weight[t] * (difference - quarter * nearest_quarter(difference));
+    }
+    for (int t = 0; problem.symmetry.weight > 0 && t < problem.triangle_count; ++t) {
+        const int image = problem.symmetry.image[at(t)];
+        if (image < 0) continue;
+        const double push = problem.symmetry.weight * symmetry_residual(problem, state.angle, t);
+        downhill[t] -= push;
+        downhill[image] -= push;
     }
     state.angle += apply_inverse(downhill);
     return state;

@@ -16,6 +16,14 @@ struct FixedDirection {
     double angle = 0;  ///< radians in the triangle's frame; a quarter turn more is the same cross
 };
 
+/// Draws every cross to that of its mirror image: adds `weight sum_t (theta_image + theta_t -
+/// transport_t)^2` to the energy, each at its nearest quarter turn. docs/field.md
+struct SymmetryTerm {
+    double weight = 0;          ///< in the energy whose smoothness counts 1; 0 for none
+    std::vector<int> image;     ///< m: triangle that holds the image of the centre, -1 for none
+    Eigen::VectorXd transport;  ///< m: as in `SymmetryMap`, radians
+};
+
 struct CrossFieldOptions {
     CrossFieldMethod method = CrossFieldMethod::convex;
     /// What one singularity may cost in energy, in squared radians, weighed when singularities are
@@ -37,20 +45,23 @@ struct CrossFieldOptions {
     /// vertex.
     std::vector<int> mirror_edges = {};
     /// Vertices that singularities should keep away from, such as those beside a line that the quad
-    /// mesh has to follow: what is singular there is priced as two quarters in one vertex.
+    /// mesh has to follow: what is singular there is priced as two quarters in one vertex, less
+    /// within one `edge_length` from there.
     std::vector<int> avoided_vertices = {};
     /// Further triangles whose cross is given; a boundary or feature edge has precedence.
     std::vector<FixedDirection> fixed_directions = {};
+    /// A symmetry that the field should have; none by default (`convex` only).
+    SymmetryTerm symmetry = {};
 };
 
 /// Computes a smooth cross field that is drawn to `targets` (m; both vectors may be empty for none)
 /// and aligned with the boundary, feature edges and fixed directions.
 ///
-/// Minimises `sum_e w_e^2 + sum_t weight_t (theta_t - target_t)^2` over real angles and integer
-/// period jumps; `CrossField::energy` is its value. The result's indices sum to four times the
-/// Euler characteristic. Throws `InputError` (usage) where an option names a triangle or edge that
-/// does not exist, and `Cancelled`. [Du and Tu, eq. 9; Bommes et al. 2009; Knoppel et al. 2013]
-/// docs/field.md
+/// Minimises `sum_e w_e^2 + sum_t weight_t (theta_t - target_t)^2`, and the symmetry term, over
+/// real angles and integer period jumps; `CrossField::energy` is its value. The result's indices
+/// sum to four times the Euler characteristic. Throws `InputError` (usage) where an option names a
+/// triangle or edge that does not exist, and `Cancelled`. [Du and Tu, eq. 9; Bommes et al. 2009;
+/// Knoppel et al. 2013] docs/field.md
 CrossField compute_cross_field(const Topology& topology, const IntrinsicMetric& metric,
                                const CrossFieldTargets& targets, const CrossFieldOptions& options,
                                const Context& context);

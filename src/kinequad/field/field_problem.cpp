@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
+#include <queue>
+#include <utility>
 
 #include "kinequad/core/error.h"
 #include "kinequad/field/even_turns.h"
@@ -103,6 +107,54 @@ void fix_crosses(FieldProblem& problem, const Topology& topology, const Intrinsi
     }
 }
 
+/// 1 at the vertices to avoid and on mirror edges, falling to 0 within one quad edge: between a
+/// line of the quad mesh and a singularity beside it there have to be quads.
+std::vector<double> measure_avoidance(const Topology& topology, const IntrinsicMetric& metric,
+                                      const CrossFieldOptions& options) {
+    const double range = options.edge_length;
+    std::vector<double> distance(at(topology.vertex_count),
+                                 std::numeric_limits<double>::infinity());
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+    const auto start_at = [&](int v) {
+        distance[at(v)] = 0;
+        front.push({0, v});
+    };
+    for (const int v : options.avoided_vertices) start_at(v);
+    for (const int e : options.mirror_edges) {
+        const int h = topology.edge_half_edge[at(e)];
+        start_at(topology.origin[at(h)]);
+        start_at(topology.target(h));
+    }
+    std::vector<std::vector<std::pair<int, int>>> edges_at(at(topology.vertex_count));
+    for (int e = 0; e < topology.edge_count; ++e) {
+        const int h = topology.edge_half_edge[at(e)];
+        edges_at[at(topology.origin[at(h)])].emplace_back(topology.target(h), e);
+        edges_at[at(topology.target(h))].emplace_back(topology.origin[at(h)], e);
+    }
+    while (!front.empty()) {
+        const double d = front.top().first;
+        const int v = front.top().second;
+        front.pop();
+        if (d > distance[at(v)]) continue;
+        for (const auto& [w, e] : edges_at[at(v)]) {
+            const double next = d + metric.edge_length[e];
+            if (next >= distance[at(w)] || next >= range) continue;
+            distance[at(w)] = next;
+            front.push({next, w});
+        }
+    }
+    std::vector<double> avoidance(distance.size(), 0);
+    for (std::size_t v = 0; v < distance.size(); ++v) {
+        if (distance[v] == 0) {
+            avoidance[v] = 1;
+        } else if (distance[v] < range) {
+            avoidance[v] = 1 - distance[v] / range;
+        }
+    }
+    return avoidance;
+}
+
 void find_anchors(FieldProblem& problem) {
     int components = 0;
     for (const int c : problem.component) components = std::max(components, c + 1);
@@ -144,8 +196,7 @@ FieldProblem make_field_problem(const Topology& topology, const IntrinsicMetric&
 
     const std::vector<double> directions = all_directions(topology, metric);
     fix_crosses(problem, topology, metric, options, directions);
-    problem.is_avoided.assign(at(topology.vertex_count), false);
-    for (const int v : options.avoided_vertices) problem.is_avoided[at(v)] = true;
+    problem.avoidance = measure_avoidance(topology, metric, options);
     problem.mirror_edges_at.assign(at(topology.vertex_count), 0);
     for (const int e : options.mirror_edges) {
         const int h = topology.edge_half_edge[at(e)];
@@ -160,6 +211,7 @@ FieldProblem make_field_problem(const Topology& topology, const IntrinsicMetric&
         }
     }
     find_anchors(problem);
+    problem.symmetry = options.symmetry;
 
     problem.kappa = Eigen::VectorXd::Zero(topology.edge_count);
     problem.boundary_residual = Eigen::VectorXd::Zero(topology.edge_count);
@@ -201,6 +253,12 @@ Eigen::VectorXi singularity_indices(const FieldProblem& problem, const Eigen::Ve
     return index;
 }
 
+double symmetry_residual(const FieldProblem& problem, const Eigen::VectorXd& angle, int t) {
+    const double sum =
+        angle[problem.symmetry.image[at(t)]] + angle[t] - problem.symmetry.transport[t];
+    return sum - quarter * nearest_quarter(sum);
+}
+
 double field_energy(const FieldProblem& problem, const FieldState& state,
                     const Eigen::VectorXd& residual) {
     double energy = 0;
@@ -212,6 +270,11 @@ double field_energy(const FieldProblem& problem, const FieldState& state,
         const double difference = state.angle[t] - problem.target[t];
         const double snapped = difference - quarter * nearest_quarter(difference);
         energy += problem.weight[t] * snapped * snapped;
+    }
+    for (int t = 0; problem.symmetry.weight > 0 && t < problem.triangle_count; ++t) {
+        if (problem.symmetry.image[at(t)] < 0) continue;
+        const double difference = symmetry_residual(problem, state.angle, t);
+        energy += problem.symmetry.weight * difference * difference;
     }
     return energy;
 }

@@ -26,7 +26,8 @@ struct FieldProblem {
     std::vector<bool> fixed;            ///< m: cross is given
     Eigen::VectorXd fixed_angle;        ///< m: radians
     std::vector<int> mirror_edges_at;   ///< n: number of mirror edges at a vertex
-    std::vector<bool> is_avoided;       ///< n: singularities cost more there
+    std::vector<double> avoidance;      ///< n: in [0, 1], how much more singularities cost there
+    SymmetryTerm symmetry;              ///< weight 0: none
     std::vector<int> component;         ///< m: connected component of a triangle
     std::vector<bool> anchored;         ///< component: has a fixed cross or soft terms that matter
 };
@@ -48,8 +49,11 @@ Eigen::VectorXd edge_residuals(const FieldProblem& problem, const FieldState& st
 /// Singularity index of every vertex (n), in quarters, from the residuals.
 Eigen::VectorXi singularity_indices(const FieldProblem& problem, const Eigen::VectorXd& residual);
 
-/// The energy: squared residuals of interior edges plus soft terms, each at its nearest quarter
-/// turn.
+/// What the sum of a cross's angle and that of its image misses, up to quarter turns; radians.
+double symmetry_residual(const FieldProblem& problem, const Eigen::VectorXd& angle, int t);
+
+/// The energy: squared residuals of interior edges plus soft terms and the symmetry term, each at
+/// its nearest quarter turn.
 double field_energy(const FieldProblem& problem, const FieldState& state,
                     const Eigen::VectorXd& residual);
 

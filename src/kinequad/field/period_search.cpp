@@ -85,8 +85,7 @@ double SingularityPrice::vertex_price(int vertex, int index) const {
     // on the boundary, half a straight angle is regular.
     const int whole = mirror_edges == 0 ? index : mirror_edges == 1 ? 2 * index - 2 : 2 * index;
     double price = singularity_cost_ * std::abs(whole);
-    const bool is_avoided = mirror_edges > 0 || problem_.is_avoided[at(vertex)];
-    if (is_avoided && whole != 0) price += 2 * adjacency_cost_ * std::abs(whole);
+    price += 2 * adjacency_cost_ * problem_.avoidance[at(vertex)] * std::abs(whole);
     // Several singularities in one place have even less room than two that an edge joins. On the
     // boundary -2 is the tip of a slit, and positive indices run out of angle below.
     const int crowd = boundary ? -1 - index : std::abs(index);

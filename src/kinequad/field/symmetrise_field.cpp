@@ -115,6 +115,13 @@ CrossFieldTargets average_over_orbits(const Topology& topology, const IntrinsicM
     return targets;
 }
 
+SymmetryTerm symmetry_term(const SymmetryMap& map, double weight) {
+    SymmetryTerm term{weight, {}, map.transport};
+    term.image.reserve(map.centre_image.size());
+    for (const SurfacePoint& image : map.centre_image) term.image.push_back(image.triangle);
+    return term;
+}
+
 FieldSymmetry measure_field_symmetry(const Topology& topology, const IntrinsicMetric& metric,
                                      const CrossField& field, const SymmetryMap& map,
                                      const Positions& V, const Triangles& F, double distance) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kinequad/core/context.h"
+#include "kinequad/field/compute_cross_field.h"
 #include "kinequad/field/cross_field.h"
 #include "kinequad/field/cross_field_targets.h"
 #include "kinequad/mesh/intrinsic_metric.h"
@@ -20,6 +21,9 @@ namespace kinequad {
 CrossFieldTargets average_over_orbits(const Topology& topology, const IntrinsicMetric& metric,
                                       const CrossField& field, const SymmetryMap& map,
                                       double weight, const Context& context);
+
+/// The term that draws every cross to its mirror image in the energy itself. docs/field.md
+SymmetryTerm symmetry_term(const SymmetryMap& map, double weight);
 
 /// How symmetric a cross field is.
 struct FieldSymmetry {

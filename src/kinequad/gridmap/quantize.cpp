@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "kinequad/core/error.h"
@@ -249,44 +250,73 @@ private:
         return false;
     }
 
-    /// Single steps of one unknown while they lower the energy.
+    /// Steps of one unknown, or of two at once, by one cell, while they lower the energy.
     void improve() {
+        double least = energy();
+        const auto most_rounds = 40 * best_.size() + 10;
+        for (Eigen::Index round = 0; round < most_rounds; ++round) {
+            const double before = least;
+            for (const WholeStep& step : promising_steps()) {
+                least = take_if_better(step, before);
+                if (least < before) break;
+            }
+            if (!(least < before)) return;
+        }
+    }
+
+    /// A step of one unknown, or of two, and what it changes the energy without room by.
+    struct WholeStep {
+        double change;
+        int first;
+        int first_sign;
+        int second = -1;  ///< none
+        int second_sign = 0;
+
+        auto order() const { return std::tie(change, first, first_sign, second, second_sign); }
+    };
+
+    /// The steps that should gain most, best first.
+    std::vector<WholeStep> promising_steps() const {
+        constexpr std::size_t most_steps = 200;
+        constexpr int most_unknowns_for_pairs = 600;
+        constexpr double least_gain = 1e-9;
         const auto count = static_cast<int>(best_.size());
-        std::vector<char> blocked(2 * is_fixed_.size(), 0);
-        double before = energy();
-        for (int round = 0; round < 10 * count + 10; ++round) {
-            context_.check_cancelled();
-            const Eigen::VectorXd gradient = 2 * (stiffness_ * (cone_.integers() - best_));
-            int choice = -1;
-            double gain = -1e-9;
-            for (int i = 0; i < count; ++i) {
-                for (int side = 0; side < 2; ++side) {
-                    if (blocked[2 * static_cast<std::size_t>(i) + static_cast<std::size_t>(side)])
-                        continue;
-                    const double change =
-                        (side == 0 ? gradient[i] : -gradient[i]) + stiffness_(i, i);
-                    if (change < gain) {
-                        gain = change;
-                        choice = 2 * i + side;
+        const Eigen::VectorXd gradient = 2 * (stiffness_ * (cone_.integers() - best_));
+        std::vector<WholeStep> steps;
+        for (int i = 0; i < count; ++i) {
+            for (const int sign : {1, -1}) {
+                const double alone = sign * gradient[i] + stiffness_(i, i);
+                if (alone < -least_gain) steps.push_back({alone, i, sign});
+                if (count > most_unknowns_for_pairs) continue;
+                for (int j = 0; j < i; ++j) {
+                    for (const int other : {1, -1}) {
+                        const double both = alone + other * gradient[j] + stiffness_(j, j) +
+                                            2 * sign * other * stiffness_(i, j);
+                        if (both < -least_gain) steps.push_back({both, i, sign, j, other});
                     }
                 }
             }
-            if (choice < 0) return;
-            Eigen::VectorXd step = Eigen::VectorXd::Zero(count);
-            step[choice / 2] = choice % 2 == 0 ? 1 : -1;
-            if (cone_.move(step)) {
-                const double after = energy();
-                if (after < before) {
-                    before = after;
-                    std::fill(blocked.begin(), blocked.end(), 0);
-                    snap_to_whole();
-                    continue;
-                }
-                if (!cone_.move(-step)) before = after;
-                snap_to_whole();
-            }
-            blocked[static_cast<std::size_t>(choice)] = 1;
         }
+        const auto kept = static_cast<std::ptrdiff_t>(std::min(most_steps, steps.size()));
+        std::partial_sort(steps.begin(), steps.begin() + kept, steps.end(),
+                          [](const auto& a, const auto& b) { return a.order() < b.order(); });
+        steps.resize(static_cast<std::size_t>(kept));
+        return steps;
+    }
+
+    /// Takes a step that cones allow, and takes it back where the energy does not fall below
+    /// `before`. Returns the energy.
+    double take_if_better(const WholeStep& step, double before) {
+        context_.check_cancelled();
+        Eigen::VectorXd move = Eigen::VectorXd::Zero(best_.size());
+        move[step.first] = step.first_sign;
+        if (step.second >= 0) move[step.second] = step.second_sign;
+        if (!cone_.move(move)) return before;
+        const double after = energy();
+        // Where the way back is blocked the step stays.
+        const bool stays = after < before || !cone_.move(-move);
+        snap_to_whole();
+        return stays ? after : before;
     }
 
     void snap_to_whole() { cone_.snap(cone_.integers().array().round()); }

@@ -15,17 +15,25 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape, b
     if (!options.symmetry) {
         options.symmetry = has_landmarks ? SymmetryMode::exact : SymmetryMode::none;
     }
+    const bool is_paper = options.field == CrossFieldMethod::paper;
+    if (!options.symmetrisation) {
+        options.symmetrisation = is_paper ? Symmetrisation::orbits : Symmetrisation::term;
+    }
+    check(!is_paper || options.symmetrisation == Symmetrisation::orbits,
+          "--symmetrise term: needs --field convex; the paper averages over orbits");
+    const bool is_twice_solved =
+        options.symmetry == SymmetryMode::field && options.symmetrisation == Symmetrisation::orbits;
     if (!options.alpha) {
         // Symmetric quads cannot follow what the two sides do differently: less is asked of them.
-        const bool is_free =
-            options.symmetry == SymmetryMode::none || options.field == CrossFieldMethod::paper;
-        const double symmetric = options.symmetry == SymmetryMode::exact ? 0.3 : 0.2;
-        options.alpha = is_free ? default_alpha(options.field) : symmetric;
+        const double symmetric = is_twice_solved ? 0.2 : 0.1;
+        options.alpha = is_paper || options.symmetry == SymmetryMode::none
+                            ? default_alpha(options.field)
+                            : symmetric;
     }
     if (!options.singularity_cost) {
-        options.singularity_cost = options.symmetry == SymmetryMode::none    ? 0.08
-                                   : options.symmetry == SymmetryMode::exact ? 0.1
-                                                                             : 0.2;
+        options.singularity_cost = options.symmetry == SymmetryMode::none ? 0.08
+                                   : is_twice_solved                      ? 0.2
+                                                                          : 0.1;
     }
     if (!options.metric) {
         options.metric = *options.alpha == 0 ? MetricChoice::reference : MetricChoice::mean;

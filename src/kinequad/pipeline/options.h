@@ -13,6 +13,12 @@ enum class SymmetryMode {
     exact,  ///< one half is solved and mirrored: the connectivity is its own mirror image
 };
 
+/// How `SymmetryMode::field` makes the cross field symmetric. docs/field.md
+enum class Symmetrisation {
+    orbits,  ///< solved, averaged over orbits, and solved again towards the average [Du and Tu]
+    term,    ///< solved once, with a symmetry term in the energy
+};
+
 /// Edge lengths that the surface is known by up to the grid map. docs/pipeline.md
 enum class MetricChoice {
     mean,       ///< averaged over all frames
@@ -30,6 +36,8 @@ struct Options {
     double edge_length = 0;  ///< wanted quad edge length in units of the input; 0: from `vertices`
     /// Recipe of the cross field; `paper` is the energy and solver of Du and Tu.
     CrossFieldMethod field = CrossFieldMethod::convex;
+    /// Empty: `orbits` with the paper's field, else `term`.
+    std::optional<Symmetrisation> symmetrisation;
     /// Influence of the animation on the cross field; empty: what was measured best with `field`
     /// and `symmetry`. With 0 the run sees a single pose, the reference frame.
     std::optional<double> alpha;

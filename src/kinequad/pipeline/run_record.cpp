@@ -15,6 +15,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+std::string name_of(Symmetrisation symmetrisation) {
+    return symmetrisation == Symmetrisation::orbits ? "orbits" : "term";
+}
+
 std::string name_of(SymmetryMode mode) {
     switch (mode) {
         case SymmetryMode::field:
@@ -121,6 +125,7 @@ nlohmann::ordered_json make_options_record(const Options& options) {
         {"vertices", options.vertices},
         {"edge_length", options.edge_length},
         {"field", options.field == CrossFieldMethod::paper ? "paper" : "convex"},
+        {"symmetrisation", name_of(*options.symmetrisation)},
         {"alpha", *options.alpha},
         {"curvature", options.curvature},
         {"feature_angle", options.feature_angle},

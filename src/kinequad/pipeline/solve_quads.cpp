@@ -45,6 +45,10 @@ void require_valid_field(const CrossFieldReport& report) {
         report.unaligned_triangles));
 }
 
+/// Weight of the symmetry term in the energy whose smoothness counts 1: singular vertices pair up,
+/// and what the map of the symmetry gets wrong is not followed.
+constexpr double symmetry_weight = 0.05;
+
 /// Weight of the symmetrised field as soft constraint, in the energy whose smoothness counts 1: the
 /// paper's, or one that keeps pairs of singularities but leaves the field free to lose some.
 double orbit_weight(const Options& options) {
@@ -76,8 +80,12 @@ CrossField make_cross_field(const Result& result, const Context& context) {
             verify_cross_field(result.domain.topology, result.domain.metric, field, options));
         return field;
     };
-    CrossField field = solve(targets);
-    if (result.options.symmetry != SymmetryMode::field) return field;
+    if (result.options.symmetry != SymmetryMode::field) return solve(targets);
+    if (result.options.symmetrisation == Symmetrisation::term) {
+        options.symmetry = symmetry_term(result.symmetry->map, symmetry_weight);
+        return solve(targets);
+    }
+    const CrossField field = solve(targets);
     return solve(average_over_orbits(result.domain.topology, result.domain.metric, field,
                                      result.symmetry->map, orbit_weight(result.options), context));
 }

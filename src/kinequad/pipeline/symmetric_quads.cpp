@@ -92,23 +92,16 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
     const std::vector<char> is_on_curve = curve_vertices(half, result.domain);
     QuadMesh whole = join_mirrored_quads(on_whole, mirrored, is_on_curve);
     if (result.options.relax_rounds > 0) {
-        // Where the surface is finer than the map is straight, mirrored quads can still fold.
+        // The two sides differ: each finds its own place on the surface, and meets at the line.
         const IntrinsicMetric lengths = metric_of(topology, reference);
-        std::vector<char> pinned(whole.vertex.size(), 0);
-        std::fill_n(pinned.begin(), half.vertex.size(), 1);
         RelaxOptions options;
         options.line_edges = boundary_edges(topology);
-        const auto unfold = [&] {
-            whole.vertex = unfold_quads(whole, {frames, reference}, topology, lengths, pinned,
-                                        options, context)
-                               .vertex;
-        };
-        unfold();
-        // What is left needs room on the solved side too; only the line stays.
-        for (std::size_t v = 0; v < pinned.size(); ++v) {
-            pinned[v] = whole.mirror[v] == static_cast<int>(v) ? 1 : 0;
+        options.rounds = result.options.relax_rounds;
+        for (std::size_t v = 0; v < whole.vertex.size(); ++v) {
+            options.pinned.push_back(whole.mirror[v] == static_cast<int>(v) ? 1 : 0);
         }
-        unfold();
+        whole.vertex =
+            relax_quads(whole, {{frames, reference}}, topology, lengths, options, context).vertex;
     }
     return whole;
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "kinequad/relax/sliding_quads.h"
@@ -18,6 +17,7 @@ constexpr double least_jacobian = 0.05;
 constexpr int releasing_pass = 8;
 constexpr int most_unfolding_passes = 16;
 constexpr int fitting_rounds = 6;
+constexpr int settling_rounds = 4;
 
 /// The references, then the other frames.
 std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views,
@@ -60,28 +60,42 @@ int fit(SlidingQuads& sliding, double limit, const Context& context) {
     struct State {
         int folded = 0;
         double distance = 0;
-        QuadMesh quads;
+        SlidingQuads::State quads;
     };
     const auto look = [&] {
-        return State{sliding.count_folded(), sliding.largest_distance(), sliding.quads()};
+        return State{sliding.count_folded(), sliding.largest_distance(), sliding.state()};
+    };
+    const auto is_better = [](const State& a, const State& b) {
+        return a.folded != b.folded ? a.folded < b.folded : a.distance < b.distance;
     };
     unfold(sliding, releasing_pass, context);
     State best = look();
     for (int round = 0; round < fitting_rounds && (best.folded > 0 || best.distance > limit);
          ++round) {
         // Every other round starts from the best state with all vertices free.
-        if (round % 2 == 1) sliding.restore(best.quads);
+        if (round % 2 == 1) {
+            sliding.restore(best.quads);
+            sliding.release();
+        }
         sliding.hug_surface(limit, 1 + round / 2, context);
         sliding.cover_extremities(limit, context);
         const bool is_last_resort = best.folded > 0 && round >= 2;
         if (is_last_resort) sliding.release();
         unfold(sliding, is_last_resort ? most_unfolding_passes : releasing_pass, context);
         State now = look();
-        const bool is_better =
-            now.folded != best.folded ? now.folded < best.folded : now.distance < best.distance;
-        if (is_better) best = std::move(now);
+        if (is_better(now, best)) best = std::move(now);
     }
     sliding.restore(best.quads);
+    // What has moved away from squares for that comes back as far as it can.
+    for (int round = 0; round < settling_rounds; ++round) {
+        sliding.relax_pass(limit, context);
+        State now = look();
+        if (now.folded > best.folded || now.distance > std::max(limit, best.distance)) {
+            sliding.restore(best.quads);
+            break;
+        }
+        best = std::move(now);
+    }
     return best.folded;
 }
 
@@ -93,6 +107,7 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
     SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
                          sample_frames(views, options), static_cast<int>(views.size()));
     sliding.let_slide(options.line_edges);
+    sliding.pin(options.pinned);
     const double limit = options.distance_limit * sliding.mean_edge_length();
     for (int round = 0; round < options.rounds; ++round) {
         context.report_progress("relaxation", static_cast<double>(round) / options.rounds);
@@ -109,29 +124,6 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
             fmt::format("relaxation: {} quads stay folded in the reference frame", folded));
     }
     context.report_progress("relaxation", 1);
-    return sliding.quads();
-}
-
-QuadMesh unfold_quads(const QuadMesh& quads, const RelaxView& view, const Topology& topology,
-                      const IntrinsicMetric& metric, const std::vector<char>& pinned,
-                      const RelaxOptions& options, const Context& context) {
-    SlidingQuads sliding(quads, topology, metric, view.frames.triangles(),
-                         sample_frames({view}, options), 1);
-    sliding.let_slide(options.line_edges);
-    sliding.pin(pinned);
-    int folded = sliding.count_folded();
-    // The smallest positive number: what is not folded stays as it is.
-    constexpr double barely_open = std::numeric_limits<double>::min();
-    for (int pass = 0; pass < most_unfolding_passes && folded > 0; ++pass) {
-        // Wider and wider around, at last with less room than one would like.
-        const double safe = pass < releasing_pass ? safe_jacobian : least_jacobian;
-        folded = sliding.unfold_pass(barely_open, safe, pass / 2, context);
-    }
-    if (folded > 0) {
-        context.write_log(
-            LogLevel::info,
-            fmt::format("relaxation: {} quads stay folded in the reference frame", folded));
-    }
     return sliding.quads();
 }
 

@@ -24,6 +24,9 @@ struct RelaxOptions {
     /// Edges of lines of the surface, such as the line of symmetry or features: quad vertices on
     /// them slide along them.
     std::vector<int> line_edges = {};
+    /// Vertices of the quads (v, nonzero) that stay where they are, beside those on boundaries; may
+    /// be empty.
+    std::vector<char> pinned = {};
 };
 
 /// An animation that quads are relaxed in, and the pose of it in which none may stay folded.
@@ -44,12 +47,5 @@ struct RelaxView {
 QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
                      const Topology& topology, const IntrinsicMetric& metric,
                      const RelaxOptions& options, const Context& context);
-
-/// Moves only the vertices around quads that are folded in the reference, until none is, and
-/// vertices that are `pinned` (v, nonzero) not at all. `options.sampled_frames` are looked at
-/// beside it. Throws as `relax_quads`. docs/relaxation.md
-QuadMesh unfold_quads(const QuadMesh& quads, const RelaxView& view, const Topology& topology,
-                      const IntrinsicMetric& metric, const std::vector<char>& pinned,
-                      const RelaxOptions& options, const Context& context);
 
 }  // namespace kinequad

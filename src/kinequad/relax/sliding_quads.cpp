@@ -18,6 +18,8 @@ constexpr double least_move = 0.01;
 constexpr FoldBarrier relaxing_barrier;
 /// Share of the size of its quads below which a vertex of a line does not come near another.
 constexpr double least_edge = 0.1;
+/// Scaled Jacobian below which no move takes a quad in a reference for the sake of other frames.
+constexpr double least_kept_jacobian = 0.05;
 
 /// Quads as triangles, cut along the shorter diagonal: triangles 2q and 2q + 1 of quad q.
 Triangles cut_quads(const Quads& Q, const Positions& X) {
@@ -224,12 +226,13 @@ bool SlidingQuads::improve(int v, double distance_limit) {
     if (!move.allFinite() || move.norm() < least_move * size) return false;
     const double cost_before = cost_around(v, relaxing_barrier);
     const double allowed = std::max(distance_limit, watched_distance(v));
+    const double least = std::min(least_jacobian_around(v), least_kept_jacobian);
     for (const double length : {1.0, 0.4}) {
         place(v, walked(v, before, length * move));
         // Two vertices of a line must not come together at its end.
         const bool is_apart = slides_[at(v)] == 0 || shortest_edge(v) > least_edge * size;
         if (is_apart && cost_around(v, relaxing_barrier) < cost_before &&
-            watched_distance(v) <= allowed) {
+            least_jacobian_around(v) >= least && watched_distance(v) <= allowed) {
             return true;
         }
     }
@@ -281,9 +284,9 @@ int SlidingQuads::count_folded() const {
     return folded;
 }
 
-void SlidingQuads::restore(const QuadMesh& quads) {
-    for (int v = 0; v < static_cast<int>(quads.vertex.size()); ++v) place(v, quads.vertex[at(v)]);
-    release();
+void SlidingQuads::restore(const State& state) {
+    for (int v = 0; v < static_cast<int>(state.vertex.size()); ++v) place(v, state.vertex[at(v)]);
+    is_pinned_ = state.is_pinned;
 }
 
 double SlidingQuads::mean_edge_length() const {

@@ -54,8 +54,15 @@ public:
     /// Number of quads folded in a reference.
     int count_folded() const;
 
-    /// Puts all vertices where `quads`, of the same connectivity, has them, and sets them free.
-    void restore(const QuadMesh& quads);
+    /// Where all vertices are, and which stay there.
+    struct State {
+        std::vector<SurfacePoint> vertex;
+        std::vector<char> is_pinned;
+    };
+    State state() const { return {quads_.vertex, is_pinned_}; }
+
+    /// Puts all vertices back to where they were.
+    void restore(const State& state);
 
     /// Sets free what `cover_extremities` has put in place.
     void release();

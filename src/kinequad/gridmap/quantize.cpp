@@ -30,7 +30,8 @@ public:
           best_(std::move(best)),
           room_weight_(room_weight),
           context_(context),
-          is_fixed_(static_cast<std::size_t>(best_.size()), 0) {}
+          is_fixed_(static_cast<std::size_t>(best_.size()), 0),
+          path_(1, cone_.integers()) {}
 
     /// Whole numbers for all unknowns, or nothing where cones block each other.
     std::optional<Eigen::VectorXd> run() {
@@ -41,8 +42,23 @@ public:
     }
 
     double quads() const { return cone_.area(); }
+    std::vector<Eigen::VectorXd> take_path() { return std::move(path_); }
 
 private:
+    /// Moves the cones, and notes where to.
+    bool move(const Eigen::VectorXd& step) {
+        if (!cone_.move(step)) return false;
+        const Eigen::VectorXd& here = cone_.integers();
+        const std::size_t count = path_.size();
+        // A step that is taken back leaves no trace.
+        if (count > 1 && (path_[count - 2] - here).cwiseAbs().maxCoeff() < 1e-9) {
+            path_.pop_back();
+        } else {
+            path_.push_back(here);
+        }
+        return true;
+    }
+
     double energy() const {
         const Eigen::VectorXd away = cone_.integers() - best_;
         double sum = away.dot(stiffness_ * away);
@@ -130,7 +146,7 @@ private:
             for (double length = 1; length > 0.05; length /= 2) {
                 Eigen::VectorXd step = Eigen::VectorXd::Zero(best_.size());
                 step(free) = length * direction;
-                if (!cone_.move(step)) continue;
+                if (!move(step)) continue;
                 const double after = energy();
                 if (after < before) {
                     moved = before - after > 1e-4 * before;
@@ -138,7 +154,7 @@ private:
                     break;
                 }
                 // Where the way back is blocked the step stays.
-                if (!cone_.move(-step)) {
+                if (!move(-step)) {
                     before = after;
                     break;
                 }
@@ -239,7 +255,7 @@ private:
                     if (is_fixed_[static_cast<std::size_t>(j)]) step[j] = 0;
                 }
                 step[i] = whole - value;
-                if (!cone_.move(step)) continue;
+                if (!move(step)) continue;
                 Eigen::VectorXd exact = cone_.integers();
                 exact[i] = whole;
                 cone_.snap(exact);
@@ -274,7 +290,7 @@ private:
             if (choice < 0) return;
             Eigen::VectorXd step = Eigen::VectorXd::Zero(count);
             step[choice / 2] = choice % 2 == 0 ? 1 : -1;
-            if (cone_.move(step)) {
+            if (move(step)) {
                 const double after = energy();
                 if (after < before) {
                     before = after;
@@ -282,7 +298,7 @@ private:
                     snap_to_whole();
                     continue;
                 }
-                if (!cone_.move(-step)) before = after;
+                if (!move(-step)) before = after;
                 snap_to_whole();
             }
             blocked[static_cast<std::size_t>(choice)] = 1;
@@ -297,6 +313,7 @@ private:
     double room_weight_;  ///< of the squares of lacking room against the energy
     const Context& context_;
     std::vector<char> is_fixed_;
+    std::vector<Eigen::VectorXd> path_;
 };
 
 }  // namespace
@@ -342,12 +359,13 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
             if (closest && miss(*closest) <= fair(attempt)) break;
             continue;
         }
-        const Quantization found{*integers, scale, rounding.quads()};
+        Quantization found{*integers, scale, rounding.quads(), rounding.take_path()};
+        const double quads = found.quads;
         const bool is_closer = !closest || miss(found) < miss(*closest);
-        if (is_closer) closest = found;
+        if (is_closer) closest = std::move(found);
         if (miss(*closest) <= fair(attempt)) break;
         if (is_closer) {
-            centre = scale * std::sqrt(wanted.count / found.quads);
+            centre = scale * std::sqrt(wanted.count / quads);
             blocked = 0;
         } else {
             ++blocked;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -53,6 +54,46 @@ double orbit_weight(const Options& options) {
                                                     : gentle;
 }
 
+/// Multiplies the factor (n) of singularities on those connected parts that have fewer than
+/// `least_room` quads of `edge_length` for each. Returns whether there are any.
+bool price_crowds(const Topology& topology, const IntrinsicMetric& metric, double edge_length,
+                  const CrossField& field, std::vector<double>& cost_factor) {
+    constexpr double least_room = 8;
+    constexpr double increase = 4;
+    const std::vector<int> part = triangle_components(topology);
+    const int parts = 1 + *std::max_element(part.begin(), part.end());
+    const Eigen::VectorXd areas = triangle_areas(topology, metric);
+    std::vector<double> quads(static_cast<std::size_t>(parts), 0);
+    std::vector<int> singular(static_cast<std::size_t>(parts), 0);
+    std::vector<int> part_of_vertex(static_cast<std::size_t>(topology.vertex_count), -1);
+    for (int t = 0; t < topology.triangle_count; ++t) {
+        const int p = part[static_cast<std::size_t>(t)];
+        quads[static_cast<std::size_t>(p)] += areas[t] / (edge_length * edge_length);
+        for (int h = 3 * t; h < 3 * t + 3; ++h) {
+            part_of_vertex[static_cast<std::size_t>(topology.origin[static_cast<std::size_t>(h)])] =
+                p;
+        }
+    }
+    // Corners of the boundary have to be where they are.
+    const auto is_counted = [&](int v) {
+        return part_of_vertex[static_cast<std::size_t>(v)] >= 0 && !topology.is_boundary_vertex(v);
+    };
+    for (int v = 0; v < topology.vertex_count; ++v) {
+        if (is_counted(v) && field.index[v] != 0)
+            ++singular[static_cast<std::size_t>(part_of_vertex[static_cast<std::size_t>(v)])];
+    }
+    bool found = false;
+    cost_factor.resize(static_cast<std::size_t>(topology.vertex_count), 1);
+    for (int v = 0; v < topology.vertex_count; ++v) {
+        if (!is_counted(v)) continue;
+        const auto p = static_cast<std::size_t>(part_of_vertex[static_cast<std::size_t>(v)]);
+        if (singular[p] * least_room <= quads[p]) continue;
+        cost_factor[static_cast<std::size_t>(v)] *= increase;
+        found = true;
+    }
+    return found;
+}
+
 CrossField make_cross_field(const Result& result, const Context& context) {
     CrossFieldTargetOptions target_options;
     target_options.method = result.options.field;
@@ -77,6 +118,21 @@ CrossField make_cross_field(const Result& result, const Context& context) {
         return field;
     };
     CrossField field = solve(targets);
+    constexpr int most_increases = 4;
+    for (int i = 0; i < most_increases && options.method == CrossFieldMethod::convex; ++i) {
+        if (!price_crowds(result.domain.topology, result.domain.metric, result.edge_length, field,
+                          options.cost_factor))
+            break;
+        const auto singular = (field.index.array() != 0).count();
+        CrossField fewer = solve(targets);
+        const auto left = (fewer.index.array() != 0).count();
+        if (left >= singular) break;
+        context.write_log(LogLevel::info,
+                          fmt::format("field: {} singularities instead of {}, as quads have no "
+                                      "room for more",
+                                      left, singular));
+        field = std::move(fewer);
+    }
     if (result.options.symmetry != SymmetryMode::field) return field;
     return solve(average_over_orbits(result.domain.topology, result.domain.metric, field,
                                      result.symmetry->map, orbit_weight(result.options), context));

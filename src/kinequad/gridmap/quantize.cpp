@@ -18,6 +18,8 @@ namespace {
 constexpr double wanted_room = 1.3;
 /// Length every edge between cones should keep, in cells; whole ones have at least 1.
 constexpr double wanted_distance = 1.2;
+/// Share by which the count may be missed where cones leave little choice.
+constexpr double rough = 0.1;
 /// How often rounding may get stuck before a scale is given up.
 constexpr int most_attempts = 6;
 
@@ -265,22 +267,24 @@ private:
         return false;
     }
 
-    /// Single steps of one unknown while they lower the energy.
+    /// Whole steps that lower the energy: of one unknown alone, and of one that the others follow.
     void improve() {
-        const auto count = static_cast<int>(best_.size());
-        std::vector<char> blocked(2 * is_fixed_.size(), 0);
+        const Eigen::MatrixXd steps = whole_steps();
+        const Eigen::MatrixXd pushed = stiffness_ * steps;
+        const Eigen::VectorXd bend = (steps.array() * pushed.array()).colwise().sum();
+        const auto count = static_cast<int>(steps.cols());
+        std::vector<char> blocked(2 * static_cast<std::size_t>(count), 0);
         double before = energy();
         for (int round = 0; round < 10 * count + 10; ++round) {
             context_.check_cancelled();
-            const Eigen::VectorXd gradient = 2 * (stiffness_ * (cone_.integers() - best_));
+            const Eigen::VectorXd slope = 2 * (pushed.transpose() * (cone_.integers() - best_));
             int choice = -1;
             double gain = -1e-9;
             for (int i = 0; i < count; ++i) {
                 for (int side = 0; side < 2; ++side) {
                     if (blocked[2 * static_cast<std::size_t>(i) + static_cast<std::size_t>(side)])
                         continue;
-                    const double change =
-                        (side == 0 ? gradient[i] : -gradient[i]) + stiffness_(i, i);
+                    const double change = (side == 0 ? slope[i] : -slope[i]) + bend[i];
                     if (change < gain) {
                         gain = change;
                         choice = 2 * i + side;
@@ -288,8 +292,7 @@ private:
                 }
             }
             if (choice < 0) return;
-            Eigen::VectorXd step = Eigen::VectorXd::Zero(count);
-            step[choice / 2] = choice % 2 == 0 ? 1 : -1;
+            const Eigen::VectorXd step = (choice % 2 == 0 ? 1 : -1) * steps.col(choice / 2);
             if (move(step)) {
                 const double after = energy();
                 if (after < before) {
@@ -303,6 +306,22 @@ private:
             }
             blocked[static_cast<std::size_t>(choice)] = 1;
         }
+    }
+
+    /// One unknown by 1 a column; then, where they are not too many, the same with the others
+    /// following by whole numbers as far as they give way.
+    Eigen::MatrixXd whole_steps() const {
+        constexpr Eigen::Index most_followed = 500;
+        const Eigen::Index count = best_.size();
+        if (count > most_followed) return Eigen::MatrixXd::Identity(count, count);
+        const Eigen::MatrixXd compliance =
+            stiffness_.llt().solve(Eigen::MatrixXd::Identity(count, count));
+        Eigen::MatrixXd steps(count, 2 * count);
+        steps.leftCols(count).setIdentity();
+        for (Eigen::Index i = 0; i < count; ++i) {
+            steps.col(count + i) = (compliance.col(i) / compliance(i, i)).array().round();
+        }
+        return steps;
     }
 
     void snap_to_whole() { cone_.snap(cone_.integers().array().round()); }
@@ -330,7 +349,7 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
     constexpr std::array<Detour, 8> detours = {
         {{1, 10}, {1.01, 10}, {0.99, 10}, {1, 40}, {1.02, 40}, {0.98, 40}, {1, 150}, {1.1, 150}}};
     // Rounding takes about the cube of the number of unknowns: with many there are fewer attempts.
-    const int most = std::clamp(3000 / std::max(1, static_cast<int>(best.size())), 8, 16);
+    const int most = std::clamp(3000 / std::max(1, static_cast<int>(best.size())), 8, 40);
     double centre = std::sqrt(wanted.count / cone.area());
     std::size_t blocked = 0;
     std::optional<Quantization> closest;
@@ -342,9 +361,19 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
                                                          : 0.07) *
                                               wanted.count);
     };
-    for (int attempt = 0; attempt < most && blocked < detours.size(); ++attempt) {
-        // Once there is a result, far detours cannot bring a closer one.
-        if (closest && (blocked > 2 || detours[blocked].scale > 1.05)) break;
+    int halvings = 0;
+    for (int attempt = 0; attempt < most; ++attempt) {
+        if (blocked == detours.size()) {
+            // Half way back to the scale that worked, where it is far off.
+            constexpr int most_halvings = 3;
+            if (!closest || miss(*closest) <= rough * wanted.count || halvings++ == most_halvings)
+                break;
+            centre = std::sqrt(centre * closest->scale);
+            blocked = 0;
+        }
+        // Once there is a result that will do, far detours cannot bring a closer one.
+        const bool will_do = closest && miss(*closest) <= rough * wanted.count;
+        if (will_do && (blocked > 2 || detours[blocked].scale > 1.05)) break;
         const double scale = centre * detours[blocked].scale;
         ConeTriangulation scaled = cone;
         scaled.scale(scale);

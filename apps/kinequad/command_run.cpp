@@ -13,6 +13,7 @@
 #include "kinequad/io/files.h"
 #include "kinequad/io/frame_digest.h"
 #include "kinequad/io/frame_sink.h"
+#include "kinequad/io/feature_lines.h"
 #include "kinequad/io/landmarks.h"
 #include "kinequad/io/repaired_sequence.h"
 #include "kinequad/io/write_mesh.h"
@@ -39,6 +40,7 @@ struct RunCommand {
     std::string output;
     std::string symmetry;
     std::string landmarks;
+    std::string features;
     std::string field = "convex";
     std::string metric;
     std::string reference = "0";
@@ -60,6 +62,7 @@ Options options_of(const RunCommand& command, const FrameSource& source) {
     if (command.metric == "reference") options.metric = MetricChoice::reference;
     options.reference = parse_reference(command.reference, source);
     options.metrics = !command.no_metrics;
+    if (!command.features.empty()) options.features = read_feature_lines(command.features);
     return options;
 }
 
@@ -217,10 +220,12 @@ void add_method_options(CLI::App& app, RunCommand& command) {
         ->capture_default_str();
     app.add_option(
            "--feature-angle", options.feature_angle,
-           "Align crosses with edges across which the reference frame turns by more than this many "
-           "degrees; 0: none")
+           "Edges across which the reference frame turns by more than this many degrees become "
+           "chains of quad edges; 0: none")
         ->check(CLI::Range(0.0, 180.0))
         ->capture_default_str();
+    app.add_option("--features", command.features,
+                   "JSON file with chains of vertices whose edges become chains of quad edges");
     app.add_option(
         "--singularity-cost", options.singularity_cost,
         "Energy that one singularity may cost, in squared radians (convex only) [0.08; 0.1 "

@@ -271,9 +271,17 @@ Attempt map_at_density(ChartedMesh mesh, const WantedQuads& wanted, const Contex
                                            seamless.reversed_triangles);
             attempt.depends_on_density = false;
             context.write_log(LogLevel::info, "gridmap: " + attempt.obstacle);
+            const std::vector<int> reversed = reversed_triangles(shapes, corners);
+            if (const int lines = give_up_lines_at(mesh, reversed); lines > 0) {
+                context.write_log(
+                    LogLevel::info,
+                    fmt::format("gridmap: {} feature edges there are no lines any more", lines));
+                // This is no refinement, and ends when there are no features left.
+                --round;
+                continue;
+            }
             for (const int h :
-                 longest_sides(mesh, mesh.target,
-                               with_neighbours(mesh, reversed_triangles(shapes, corners)))) {
+                 longest_sides(mesh, mesh.target, with_neighbours(mesh, reversed))) {
                 mesh.split_edge(h);
             }
             continue;
@@ -302,6 +310,25 @@ Attempt map_at_density(ChartedMesh mesh, const WantedQuads& wanted, const Contex
 GridMap map_component(ChartedMesh mesh, const WantedQuads& wanted, const Context& context) {
     // No part has fewer quads than a triangle.
     const double quad_count = std::max(wanted.count, 3.0);
+    const auto has_features = [&] {
+        return std::find(mesh.is_line.begin(), mesh.is_line.end(), ChartedMesh::feature_line) !=
+               mesh.is_line.end();
+    };
+    if (has_features()) {
+        const int narrow = give_up_narrow_lines(mesh);
+        context.write_log(LogLevel::debug,
+                          fmt::format("gridmap: {} feature edges are too near others", narrow));
+        ChartedMesh with_lines = mesh;
+        separate_singularities(with_lines);
+        Attempt attempt =
+            map_at_density(std::move(with_lines), {quad_count, wanted.tolerance}, context);
+        if (attempt.map) return std::move(*attempt.map);
+        context.write_log(LogLevel::info,
+                          fmt::format("gridmap: not with the features of the part with triangle {} "
+                                      "as lines ({}); crosses follow them still",
+                                      mesh.parent.front(), attempt.obstacle));
+        std::replace(mesh.is_line.begin(), mesh.is_line.end(), ChartedMesh::feature_line, '\0');
+    }
     separate_singularities(mesh);
     std::string obstacle;
     for (const double factor : densities) {

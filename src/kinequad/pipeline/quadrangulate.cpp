@@ -11,6 +11,7 @@
 #include "kinequad/extract/verify_quad_mesh.h"
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/io/memory_sequence.h"
+#include "kinequad/mesh/feature_edges.h"
 #include "kinequad/pipeline/check_input.h"
 #include "kinequad/pipeline/refine_coarse_input.h"
 #include "kinequad/pipeline/solve_quads.h"
@@ -23,6 +24,20 @@ namespace {
 Positions read_reference_frame(const FrameSource& source, int reference) {
     return reference == Options::rest_shape ? source.read_rest_shape()
                                             : source.read_frame(reference);
+}
+
+/// The feature edges of the input, by angle and by name.
+std::vector<int> find_features(const Topology& topology, const Positions& reference,
+                               const Options& options) {
+    std::vector<int> features = edges_between(topology, options.features, "features");
+    if (options.feature_angle > 0) {
+        const std::vector<int> sharp =
+            find_feature_edges(topology, reference, options.feature_angle);
+        features.insert(features.end(), sharp.begin(), sharp.end());
+        std::sort(features.begin(), features.end());
+        features.erase(std::unique(features.begin(), features.end()), features.end());
+    }
+    return features;
 }
 
 /// Every component needs area, or no quad can lie on it.
@@ -92,10 +107,11 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     result.reference = read_reference_frame(source, result.options.reference);
     require_valid_input(source, result.reference, context);
     result.topology = build_topology(source.triangles(), source.vertex_count());
+    result.features = find_features(result.topology, result.reference, result.options);
     // A symmetry map is made of the input as it is: seams would not fit where both sides are cut.
     if (result.options.symmetry == SymmetryMode::none) {
-        result.refined =
-            refine_coarse_input(result.topology, result.reference, result.options, context);
+        result.refined = refine_coarse_input(result.topology, result.reference, result.features,
+                                             result.options, context);
     }
     finish_stage("check");
 

@@ -174,6 +174,7 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
     GridMapOptions options;
     options.edge_length = result.edge_length;
     if (!domain.is_half()) options.line_edges = domain.curve_edges();
+    options.feature_edges = domain.feature_edges;
     for (int attempt = 1;; ++attempt) {
         try {
             result.map =
@@ -209,10 +210,11 @@ IntrinsicMetric choose_metric(const FrameSource& frames, const Topology& topolog
 
 void solve_field(const std::vector<DomainView>& views, Result& result, const Context& context,
                  const std::function<void(const char* stage)>& finish_stage) {
-    if (result.options.feature_angle > 0) {
-        result.domain.feature_edges = find_feature_edges(
-            result.domain.topology, views.front().reference, result.options.feature_angle);
-    }
+    const RefinedMesh& surface = result.domain.surface.mesh;
+    result.domain.feature_edges = edges_along(
+        result.domain.topology,
+        result.refined ? as_refinement_of_input(*result.refined, surface) : surface,
+        result.topology, result.features);
     result.tensors = measure_deformation(views, result, context);
     finish_stage("deformation");
     result.field = make_cross_field(result, context);
@@ -234,8 +236,10 @@ QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const
                                                    : std::nullopt;
         relax_options.line_edges = domain.curve_edges();
         const std::vector<int> boundary = boundary_edges(domain.topology);
-        relax_options.line_edges.insert(relax_options.line_edges.end(), boundary.begin(),
-                                        boundary.end());
+        for (const std::vector<int>& lines : {boundary, result.map.feature_edges}) {
+            relax_options.line_edges.insert(relax_options.line_edges.end(), lines.begin(),
+                                            lines.end());
+        }
         std::vector<RelaxView> relax_views;
         relax_views.reserve(views.size());
         for (const DomainView& view : views) relax_views.push_back({view.frames, view.reference});

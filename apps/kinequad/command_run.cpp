@@ -10,10 +10,10 @@
 #include "commands.h"
 #include "input_options.h"
 #include "kinequad/core/error.h"
+#include "kinequad/io/feature_lines.h"
 #include "kinequad/io/files.h"
 #include "kinequad/io/frame_digest.h"
 #include "kinequad/io/frame_sink.h"
-#include "kinequad/io/feature_lines.h"
 #include "kinequad/io/landmarks.h"
 #include "kinequad/io/repaired_sequence.h"
 #include "kinequad/io/write_mesh.h"
@@ -234,9 +234,10 @@ void add_method_options(CLI::App& app, RunCommand& command) {
                    "Rounds in which the vertices slide over the surface towards squares; 0: none")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    app.add_option("--metric", command.metric,
-                   "Edge lengths that the surface is known by: mean (over the frames) or reference "
-                   "[mean; reference with --alpha 0]")
+    app.add_option(
+           "--metric", command.metric,
+           "Edge lengths that the surface is known by: mean (over the frames) or reference "
+           "[mean; reference with --alpha 0 and where the frames differ too much for a mean]")
         ->check(CLI::IsMember({"mean", "reference"}));
     app.add_option("--reference", command.reference,
                    "Reference frame, counted from 0, or rest: the OBJ beside a PC2 or MDD cache")

@@ -72,8 +72,8 @@ GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric
     const double edge_length = options.edge_length > 0
                                    ? options.edge_length
                                    : edge_length_for(topology, metric, options.vertex_count);
-    const ChartedMesh mesh = build_charts(topology, metric, field, edge_length,
-                                          options.line_edges, options.feature_edges);
+    const ChartedMesh mesh = build_charts(topology, metric, field, edge_length, options.line_edges,
+                                          options.feature_edges);
     const std::vector<MapComponent> components = split_components(mesh);
     std::vector<std::size_t> order(components.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -42,8 +42,8 @@ struct GridMap {
     /// Of the features of the surface that was mapped, the edges (ascending) that lie on integer
     /// lines.
     std::vector<int> feature_edges;
-    double wanted_quads = 0;    ///< number of quads that was asked for
-    double quads = 0;           ///< number of quads, the area of the map in cells
+    double wanted_quads = 0;  ///< number of quads that was asked for
+    double quads = 0;         ///< number of quads, the area of the map in cells
 };
 
 /// The coordinate turned counter-clockwise by `quarters` quarter turns.

@@ -280,8 +280,7 @@ Attempt map_at_density(ChartedMesh mesh, const WantedQuads& wanted, const Contex
                 --round;
                 continue;
             }
-            for (const int h :
-                 longest_sides(mesh, mesh.target, with_neighbours(mesh, reversed))) {
+            for (const int h : longest_sides(mesh, mesh.target, with_neighbours(mesh, reversed))) {
                 mesh.split_edge(h);
             }
             continue;

@@ -12,8 +12,9 @@ namespace kinequad {
 using FeatureLines = std::vector<std::array<int, 2>>;
 
 /// Reads the text of a file of feature lines, {"lines": [[i, j, k, ...], ...]}: each a chain of at
-/// least two 0-based vertices, one joined to the next by an edge; other keys are passed over. `name`
-/// is what messages call the file. Throws `InputError` (file) where the text is no such JSON.
+/// least two 0-based vertices, one joined to the next by an edge; other keys are passed over.
+/// `name` is what messages call the file. Throws `InputError` (file) where the text is no such
+/// JSON.
 FeatureLines parse_feature_lines(std::string_view text, const std::string& name);
 
 /// As `parse_feature_lines`, for the file at `path`.

@@ -49,9 +49,9 @@ std::vector<int> edges_between(const Topology& topology,
             }
         }
         if (found < 0) {
-            throw InputError(InputFault::usage,
-                             fmt::format("{}: the mesh has no edge between vertices {} and {}",
-                                         name, a, b));
+            throw InputError(
+                InputFault::usage,
+                fmt::format("{}: the mesh has no edge between vertices {} and {}", name, a, b));
         }
         edges.push_back(found);
     }
@@ -68,8 +68,8 @@ std::vector<int> edges_along(const Topology& topology, const RefinedMesh& fine,
     for (int e = 0; e < topology.edge_count; ++e) {
         const int h = topology.edge_half_edge[static_cast<std::size_t>(e)];
         const int side = side_of_parent(fine, h);
-        if (side >= 0 && is_listed[static_cast<std::size_t>(
-                             coarse.edge[static_cast<std::size_t>(side)])])
+        if (side >= 0 &&
+            is_listed[static_cast<std::size_t>(coarse.edge[static_cast<std::size_t>(side)])])
             found.push_back(e);
     }
     return found;

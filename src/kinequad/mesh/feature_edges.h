@@ -20,8 +20,8 @@ std::vector<int> edges_between(const Topology& topology,
                                const std::vector<std::array<int, 2>>& pairs,
                                const std::string& name);
 
-/// The edges (ascending) of the refinement `fine`, with triangles `topology`, that lie on `edges` of
-/// the mesh it refines, whose triangles are `coarse`.
+/// The edges (ascending) of the refinement `fine`, with triangles `topology`, that lie on `edges`
+/// of the mesh it refines, whose triangles are `coarse`.
 std::vector<int> edges_along(const Topology& topology, const RefinedMesh& fine,
                              const Topology& coarse, const std::vector<int>& edges);
 

@@ -283,7 +283,7 @@ private:
     std::vector<Vector3> barycentric_;
     std::vector<Vector2> place_;  ///< of a corner in the plane of its input triangle
     std::vector<double> length_;
-    std::vector<double> limit_;  ///< of a triangle of the input
+    std::vector<double> limit_;       ///< of a triangle of the input
     std::vector<char> is_boundary_;   ///< by vertex: on the boundary or on a line
     std::vector<char> is_line_side_;  ///< of a half-edge of the input: on a line
     std::priority_queue<Candidate> queue_;

@@ -211,10 +211,10 @@ IntrinsicMetric choose_metric(const FrameSource& frames, const Topology& topolog
 void solve_field(const std::vector<DomainView>& views, Result& result, const Context& context,
                  const std::function<void(const char* stage)>& finish_stage) {
     const RefinedMesh& surface = result.domain.surface.mesh;
-    result.domain.feature_edges = edges_along(
-        result.domain.topology,
-        result.refined ? as_refinement_of_input(*result.refined, surface) : surface,
-        result.topology, result.features);
+    result.domain.feature_edges =
+        edges_along(result.domain.topology,
+                    result.refined ? as_refinement_of_input(*result.refined, surface) : surface,
+                    result.topology, result.features);
     result.tensors = measure_deformation(views, result, context);
     finish_stage("deformation");
     result.field = make_cross_field(result, context);

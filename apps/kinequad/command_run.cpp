@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "input_options.h"
 #include "kinequad/core/error.h"
+#include "kinequad/io/feature_lines.h"
 #include "kinequad/io/files.h"
 #include "kinequad/io/frame_digest.h"
 #include "kinequad/io/frame_sink.h"
@@ -39,6 +40,7 @@ struct RunCommand {
     std::string output;
     std::string symmetry;
     std::string landmarks;
+    std::string features;
     std::string field = "convex";
     std::string symmetrisation;
     std::string metric;
@@ -63,6 +65,7 @@ Options options_of(const RunCommand& command, const FrameSource& source) {
     if (command.metric == "reference") options.metric = MetricChoice::reference;
     options.reference = parse_reference(command.reference, source);
     options.metrics = !command.no_metrics;
+    if (!command.features.empty()) options.features = read_feature_lines(command.features);
     return options;
 }
 
@@ -225,10 +228,12 @@ void add_method_options(CLI::App& app, RunCommand& command) {
         ->capture_default_str();
     app.add_option(
            "--feature-angle", options.feature_angle,
-           "Align crosses with edges across which the reference frame turns by more than this many "
-           "degrees; 0: none")
+           "Edges across which the reference frame turns by more than this many degrees become "
+           "chains of quad edges; 0: none")
         ->check(CLI::Range(0.0, 180.0))
         ->capture_default_str();
+    app.add_option("--features", command.features,
+                   "JSON file with chains of vertices whose edges become chains of quad edges");
     app.add_option(
         "--singularity-cost", options.singularity_cost,
         "Energy that one singularity may cost, in squared radians (convex only) [0.08; 0.1 "
@@ -237,9 +242,10 @@ void add_method_options(CLI::App& app, RunCommand& command) {
                    "Rounds in which the vertices slide over the surface towards squares; 0: none")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    app.add_option("--metric", command.metric,
-                   "Edge lengths that the surface is known by: mean (over the frames) or reference "
-                   "[mean; reference with --alpha 0]")
+    app.add_option(
+           "--metric", command.metric,
+           "Edge lengths that the surface is known by: mean (over the frames) or reference "
+           "[mean; reference with --alpha 0 and where the frames differ too much for a mean]")
         ->check(CLI::IsMember({"mean", "reference"}));
     app.add_option("--reference", command.reference,
                    "Reference frame, counted from 0, or rest: the OBJ beside a PC2 or MDD cache")

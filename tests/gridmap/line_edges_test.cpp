@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinequad/field/compute_cross_field.h"
 #include "kinequad/gridmap/compute_grid_map.h"
+#include "kinequad/mesh/feature_edges.h"
 #include "support/shapes.h"
 
 namespace kinequad {
@@ -69,6 +71,59 @@ TEST(LineEdges, LinesMayEndCrossAndReachTheBoundary) {
     lines.insert(lines.end(), across.begin(), across.end());
     ASSERT_EQ(lines.size(), 16 + across.size());
     expect_lines_kept(map_with_lines(mesh, lines, 300), lines.size());
+}
+
+GridMap map_with_features(const TriangleMesh& mesh, const std::vector<int>& features,
+                          int vertices) {
+    const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));
+    const IntrinsicMetric metric = metric_of(topology, mesh.V);
+    CrossFieldOptions field_options;
+    field_options.feature_edges = features;
+    const CrossField field = compute_cross_field(topology, metric, {}, field_options, {});
+    GridMapOptions options;
+    options.vertex_count = vertices;
+    options.feature_edges = features;
+    return compute_grid_map(topology, metric, field, options, {});
+}
+
+TEST(FeatureLines, AllEdgesOfACubeAreIntegerLines) {
+    const TriangleMesh mesh = test::cube(6);
+    const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));
+    const std::vector<int> edges = find_feature_edges(topology, mesh.V, 40);
+    ASSERT_EQ(edges.size(), 12U * 6);
+    for (const int vertices : {8, 100, 800}) {
+        SCOPED_TRACE(vertices);
+        const GridMap map = map_with_features(mesh, edges, vertices);
+        EXPECT_TRUE(verify_grid_map(map).valid());
+        EXPECT_EQ(map.feature_edges, edges);
+    }
+}
+
+TEST(FeatureLines, CrossingLinesInANarrowStripLeaveAValidMap) {
+    const int n = 16;
+    TriangleMesh mesh = test::square(n);
+    const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));
+    const auto low = mesh.V.colwise().minCoeff().eval();
+    const double size = mesh.V.col(0).maxCoeff() - low[0];
+    const auto cell = [&](const Vector3& p, int k) { return (p[k] - low[k]) / size * n; };
+    const auto on_row = [&](const Vector3& p) { return std::abs(cell(p, 1) - 8) < 1e-6; };
+    std::vector<int> lines = edges_where(topology, mesh.V, on_row);
+    for (int v = 0; v < mesh.V.rows(); ++v) {
+        const Vector3 p = mesh.V.row(v).transpose();
+        // Bend the next row down to the line on the left.
+        if (std::abs(cell(p, 1) - 9) < 1e-6 && cell(p, 0) < 8.5)
+            mesh.V(v, 1) -= 0.8 * size / n * (1 - cell(p, 0) / 8.5);
+    }
+    const std::vector<int> across = edges_where(topology, mesh.V, [&](const Vector3& p) {
+        return std::abs(cell(p, 0) - 4) < 1e-6 || std::abs(cell(p, 0) - 5) < 1e-6;
+    });
+    lines.insert(lines.end(), across.begin(), across.end());
+    std::sort(lines.begin(), lines.end());
+    lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+    const GridMap map = map_with_features(mesh, lines, 300);
+    EXPECT_TRUE(verify_grid_map(map).valid());
+    EXPECT_TRUE(std::includes(lines.begin(), lines.end(), map.feature_edges.begin(),
+                              map.feature_edges.end()));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "kinequad/extract/verify_quad_mesh.h"
 #include "kinequad/io/memory_sequence.h"
 #include "kinequad/synth/synthesize_creature.h"
+#include "kinequad/transfer/transfer.h"
 #include "support/shapes.h"
 
 namespace kinequad {
@@ -96,6 +97,52 @@ TEST(Quadrangulate, StopsWhenAsked) {
     Context context;
     context.cancel = &cancel;
     EXPECT_THROW(quadrangulate(stretched_torus(2), {}, options_for(400), context), Cancelled);
+}
+
+/// Quads of a cube of 12 triangles, edge length 2, with some of its edges as features.
+Result quads_of_cube(const Options& options) {
+    const TriangleMesh mesh = test::cube(1);
+    return quadrangulate(MemorySequence(mesh.F, {mesh.V}), {}, options, Context{});
+}
+
+TEST(Quadrangulate, SharpEdgesOfACubeAreKept) {
+    Options options = options_for(300);
+    options.feature_angle = 40;
+    const Result result = quads_of_cube(options);
+    const TriangleMesh mesh = test::cube(1);
+    const Positions X = quad_positions(result.quads, mesh.V, mesh.F);
+    EXPECT_EQ(result.map.feature_edges, result.domain.feature_edges);
+    // Coordinates at +-1 count the sides of the cube that a point lies on.
+    int corners = 0;
+    std::vector<int> sides;
+    for (Eigen::Index v = 0; v < X.rows(); ++v) {
+        sides.push_back(static_cast<int>((X.row(v).array().abs() > 1 - 1e-9).count()));
+        EXPECT_GE(sides.back(), 1);
+        corners += sides.back() == 3 ? 1 : 0;
+    }
+    EXPECT_EQ(corners, 8);
+    // No quad reaches over an edge: all its corners lie on one side of the cube.
+    for (Eigen::Index q = 0; q < result.quads.Q.rows(); ++q) {
+        Eigen::Array<double, 1, 3> sum = Eigen::Array<double, 1, 3>::Zero();
+        for (int k = 0; k < 4; ++k) sum += X.row(result.quads.Q(q, k)).array();
+        EXPECT_NEAR(sum.abs().maxCoeff(), 4, 1e-8);
+    }
+}
+
+TEST(Quadrangulate, FeaturesCanBeNamed) {
+    const TriangleMesh mesh = test::cube(1);
+    const auto corner = [&](double x, double y, double z) {
+        Eigen::Index v = 0;
+        (mesh.V.rowwise() - Eigen::RowVector3d(x, y, z)).rowwise().squaredNorm().minCoeff(&v);
+        return static_cast<int>(v);
+    };
+    Options options = options_for(200);
+    options.features = {{corner(-1, -1, -1), corner(1, -1, -1)}};
+    const Result result = quads_of_cube(options);
+    EXPECT_FALSE(result.map.feature_edges.empty());
+    EXPECT_EQ(result.map.feature_edges, result.domain.feature_edges);
+    options.features = {{corner(-1, -1, -1), corner(1, 1, 1)}};
+    EXPECT_THROW(quads_of_cube(options), InputError);
 }
 
 }  // namespace

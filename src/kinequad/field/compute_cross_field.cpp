@@ -53,7 +53,8 @@ FieldState search_field(const FieldProblem& problem, const Topology& topology,
                         const Context& context) {
     const AngleSolver solver(problem);
     const SingularityPrice price(problem, topology, options.singularity_cost,
-                                 options.adjacency_cost, short_edges(metric, options.edge_length));
+                                 options.adjacency_cost, short_edges(metric, options.edge_length),
+                                 options.cost_factor);
     const auto search = [&](const FieldProblem& form, FieldState state) {
         SolvedField field = solve_field(form, solver, price, std::move(state));
         field = improve_periods(form, solver, price, std::move(field), context);

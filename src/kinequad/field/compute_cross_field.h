@@ -29,6 +29,9 @@ struct CrossFieldOptions {
     /// What one singularity may cost in energy, in squared radians, weighed when singularities are
     /// moved, made and cancelled (`convex` only).
     double singularity_cost = 0.08;
+    /// n: by how much singularities at each vertex inside cost more than that, where quads have no
+    /// room for them; empty: nowhere (`convex` only).
+    std::vector<double> cost_factor = {};
     /// What each mesh edge that joins two singularities costs beside, in squared radians:
     /// integer-grid maps have no room there; twice that for each quarter beyond the first of one
     /// vertex (`convex` only).

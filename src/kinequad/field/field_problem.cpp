@@ -61,6 +61,8 @@ void check_options(const Topology& topology, const CrossFieldTargets& targets,
                                          fixed.angle, fixed.triangle, topology.triangle_count));
         }
     }
+    require(options.cost_factor.empty() || options.cost_factor.size() == at(topology.vertex_count),
+            InputFault::usage, "cost factors of singularities need one number a vertex");
     require(targets.value.size() == targets.weight.size() &&
                 (targets.value.size() == 0 || targets.value.size() == topology.triangle_count),
             InputFault::usage, "cross field targets need one value and one weight a triangle");

@@ -67,14 +67,16 @@ std::vector<Step> promising_steps(const FieldProblem& problem, const Singularity
 
 SingularityPrice::SingularityPrice(const FieldProblem& problem, const Topology& topology,
                                    double singularity_cost, double adjacency_cost,
-                                   std::vector<bool> tight)
+                                   std::vector<bool> tight, const std::vector<double>& cost_factor)
     : problem_(problem),
       boundary_(at(topology.vertex_count)),
-      singularity_cost_(singularity_cost),
+      singularity_cost_(at(topology.vertex_count), singularity_cost),
       adjacency_cost_(adjacency_cost),
       tight_(std::move(tight)) {
     for (int v = 0; v < topology.vertex_count; ++v) {
         boundary_[at(v)] = topology.is_boundary_vertex(v);
+        if (!cost_factor.empty() && !boundary_[at(v)])
+            singularity_cost_[at(v)] *= cost_factor[at(v)];
     }
 }
 
@@ -84,12 +86,12 @@ double SingularityPrice::vertex_price(int vertex, int index) const {
     // Together with its mirror image a vertex has twice the angle; where the line of symmetry ends
     // on the boundary, half a straight angle is regular.
     const int whole = mirror_edges == 0 ? index : mirror_edges == 1 ? 2 * index - 2 : 2 * index;
-    double price = singularity_cost_ * std::abs(whole);
+    double price = singularity_cost_[at(vertex)] * std::abs(whole);
     price += 2 * adjacency_cost_ * problem_.avoidance[at(vertex)] * std::abs(whole);
     // Several singularities in one place have even less room than two that an edge joins. On the
     // boundary -2 is the tip of a slit, and positive indices run out of angle below.
     const int crowd = boundary ? -1 - index : std::abs(index);
-    if (crowd >= 2) price += 2 * (singularity_cost_ + adjacency_cost_ * (crowd - 1));
+    if (crowd >= 2) price += 2 * (singularity_cost_[at(vertex)] + adjacency_cost_ * (crowd - 1));
     // A map needs a positive angle (4 - index quarters, on the boundary 2 - index) at every vertex;
     // the prices of what has none, or nearly none, outweigh any energy.
     const int angle = (boundary ? 2 : 4) - index;

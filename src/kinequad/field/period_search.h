@@ -8,9 +8,11 @@ namespace kinequad {
 /// as no integer-grid map has room there.
 class SingularityPrice {
 public:
-    /// `tight` (e) tells which mesh edges are short; empty for none.
+    /// `tight` (e) tells which mesh edges are short, empty for none; `cost_factor` (n) multiplies
+    /// `singularity_cost` at vertices inside, empty for 1.
     SingularityPrice(const FieldProblem& problem, const Topology& topology, double singularity_cost,
-                     double adjacency_cost = 0, std::vector<bool> tight = {});
+                     double adjacency_cost = 0, std::vector<bool> tight = {},
+                     const std::vector<double>& cost_factor = {});
     /// Price of all singularities (n).
     double sum(const Eigen::VectorXi& index) const;
     /// Number of singular vertices across the short edges of every vertex (n).
@@ -29,7 +31,7 @@ private:
 
     const FieldProblem& problem_;
     std::vector<bool> boundary_;
-    double singularity_cost_;
+    std::vector<double> singularity_cost_;  ///< n
     double adjacency_cost_;
     std::vector<bool> tight_;
 };

@@ -91,7 +91,8 @@ Triangles ChartedMesh::triangles() const {
 
 ChartedMesh build_charts(const Topology& topology, const IntrinsicMetric& metric,
                          const CrossField& field, double edge_length,
-                         const std::vector<int>& line_edges) {
+                         const std::vector<int>& line_edges,
+                         const std::vector<int>& feature_edges) {
     ChartedMesh mesh;
     const std::size_t corners = topology.origin.size();
     mesh.vertex_count = topology.vertex_count;
@@ -101,11 +102,15 @@ ChartedMesh build_charts(const Topology& topology, const IntrinsicMetric& metric
     mesh.target.resize(corners);
     mesh.barycentric.resize(corners);
     mesh.is_line.assign(corners, 0);
-    for (const int e : line_edges) {
-        const int h = topology.edge_half_edge[at(e)];
-        const int other = topology.twin[at(h)];
-        if (other >= 0) mesh.is_line[at(h)] = mesh.is_line[at(other)] = 1;
-    }
+    const auto mark = [&](const std::vector<int>& edges, char kind) {
+        for (const int e : edges) {
+            const int h = topology.edge_half_edge[at(e)];
+            const int other = topology.twin[at(h)];
+            if (other >= 0) mesh.is_line[at(h)] = mesh.is_line[at(other)] = kind;
+        }
+    };
+    mark(feature_edges, ChartedMesh::feature_line);
+    mark(line_edges, 1);
     mesh.parent.resize(at(topology.triangle_count));
     mesh.index.assign(field.index.data(), field.index.data() + field.index.size());
     mesh.is_boundary.resize(at(topology.vertex_count));

@@ -14,13 +14,16 @@ namespace kinequad {
 /// that equals the chart in every triangle up to translation would have no distortion at all.
 /// Half-edge `h = 3 * t + k` as in `Topology`.
 struct ChartedMesh {
+    static constexpr char feature_line = 2;
+
     int vertex_count = 0;
     std::vector<int> origin;    ///< 3m: vertex at a corner
     std::vector<int> twin;      ///< 3m: half-edge across, -1 on the boundary
     std::vector<int> rotation;  ///< 3m: quarter turns from this triangle's chart to the one across
     std::vector<Complex> target;  ///< 3m: corner in the chart of its triangle, in cells
     std::vector<char> is_line;    ///< 3m: nonzero on both half-edges of an edge inside the surface
-                                  ///< that has to lie on an integer line
+                                  ///< that has to lie on an integer line: `feature_line` where it
+                                  ///< may be given up, else 1
     std::vector<int> parent;      ///< m: input triangle
     std::vector<Vector3> barycentric;  ///< 3m: corner in the parent's barycentric coordinates
     std::vector<int> index;            ///< n: singularity index in quarters
@@ -38,10 +41,19 @@ struct ChartedMesh {
 };
 
 /// Lays the charts out along the crosses of `field`, one cell being `edge_length` long. The edges
-/// `line_edges` inside the surface have to lie on integer lines, as its boundary does.
+/// `line_edges` inside the surface have to lie on integer lines, as its boundary does;
+/// `feature_edges` may be given up.
 ChartedMesh build_charts(const Topology& topology, const IntrinsicMetric& metric,
                          const CrossField& field, double edge_length,
-                         const std::vector<int>& line_edges = {});
+                         const std::vector<int>& line_edges = {},
+                         const std::vector<int>& feature_edges = {});
+
+/// Gives up feature lines next to which there is no room for the quads of a map: where two lines
+/// leave a vertex less than half a quarter turn of the crosses apart. Returns the number of edges.
+int give_up_narrow_lines(ChartedMesh& mesh);
+
+/// Gives up the feature lines at the corners of `triangles`. Returns the number of edges.
+int give_up_lines_at(ChartedMesh& mesh, const std::vector<int>& triangles);
 
 /// Splits every edge that joins two singular vertices, and every triangle with three, until there
 /// is none: the map could not pass a third singularity between two that an edge ties together.

@@ -41,6 +41,19 @@ double count_quads(const GridMap& map) {
     return area;
 }
 
+/// Edges of the surface that is mapped with a feature line of its map on them.
+std::vector<int> features_on_lines(const GridMap& map, const Topology& topology) {
+    std::vector<int> edges;
+    for (std::size_t h = 0; h < map.is_line.size(); ++h) {
+        if (map.is_line[h] != ChartedMesh::feature_line) continue;
+        const int side = side_of_parent(map.mesh, static_cast<int>(h));
+        if (side >= 0) edges.push_back(topology.edge[static_cast<std::size_t>(side)]);
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
 }  // namespace
 
 double edge_length_for(const Topology& topology, const IntrinsicMetric& metric, int vertex_count) {
@@ -59,7 +72,8 @@ GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric
     const double edge_length = options.edge_length > 0
                                    ? options.edge_length
                                    : edge_length_for(topology, metric, options.vertex_count);
-    const ChartedMesh mesh = build_charts(topology, metric, field, edge_length, options.line_edges);
+    const ChartedMesh mesh = build_charts(topology, metric, field, edge_length, options.line_edges,
+                                          options.feature_edges);
     const std::vector<MapComponent> components = split_components(mesh);
     std::vector<std::size_t> order(components.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -86,6 +100,7 @@ GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric
         area_left -= component.area;
     }
     GridMap whole = join_maps(components, maps, topology.vertex_count);
+    whole.feature_edges = features_on_lines(whole, topology);
     whole.wanted_quads = wanted;
     whole.quads = made;
     context.report_progress("grid map", 1);

@@ -17,6 +17,8 @@ struct GridMapOptions {
     /// Edges inside the surface that become integer lines, and so chains of quad edges; the field
     /// has to be aligned with them.
     std::vector<int> line_edges = {};
+    /// The same for edges that are given up one by one where no map has them as lines.
+    std::vector<int> feature_edges = {};
 };
 
 /// Edge length at which a surface is covered by about `vertex_count` quad vertices.

@@ -39,8 +39,11 @@ struct GridMap {
     Eigen::VectorXi index;               ///< n': singularity index in quarters
     std::vector<char> is_line;  ///< 3m': nonzero where a half-edge inside has to lie on an integer
                                 ///< line, as the boundary does; empty for none
-    double wanted_quads = 0;    ///< number of quads that was asked for
-    double quads = 0;           ///< number of quads, the area of the map in cells
+    /// Of the features of the surface that was mapped, the edges (ascending) that lie on integer
+    /// lines.
+    std::vector<int> feature_edges;
+    double wanted_quads = 0;  ///< number of quads that was asked for
+    double quads = 0;         ///< number of quads, the area of the map in cells
 };
 
 /// The coordinate turned counter-clockwise by `quarters` quarter turns.

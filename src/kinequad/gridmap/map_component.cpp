@@ -23,7 +23,13 @@ constexpr std::array<double, 6> densities = {1, 1.5, 2.5, 5, 12, 40};
 constexpr int most_rounds = 3;
 /// Bounds of the refinement where singularities are held back; no mesh gets more than twice as
 /// fine.
-constexpr int most_refinements = 12;
+constexpr int straight_rounds = 5;
+constexpr int winding_rounds = 5;
+/// Counts, as shares of the wanted one, for which whole numbers are looked for until the map can be
+/// brought to them: close by, others come out.
+constexpr std::array<double, 5> counts_near = {1, 0.97, 1.03, 0.95, 1.05};
+/// Length of the pieces that the path of the cones is followed in, in cells.
+constexpr double longest_move = 0.2;
 constexpr int relaxing_steps = 8;
 
 /// The longest sides of `triangles` in the plane where their corners are `corners`. No two of the
@@ -134,30 +140,108 @@ std::string describe(const GridMapReport& report) {
         report.fractional_singularities, report.wrong_cone_angles, report.unaligned_edges);
 }
 
-/// Brings the map to the integers, refining the mesh where its triangles hold the map back, and
-/// relaxes it there. Nothing where refinement does not help.
-std::optional<Eigen::VectorXd> reach_integers(ChartedMesh& mesh, MapVariables& variables,
-                                              double scale, Eigen::VectorXd x,
-                                              const Eigen::VectorXd& goal, int most_triangles,
-                                              const Context& context) {
-    for (int round = 0; round < most_refinements && mesh.triangle_count() < most_triangles;
+/// A map on its way to the integers, on a mesh that is refined where it holds the map back.
+struct MovingMap {
+    ChartedMesh mesh;
+    MapVariables variables;
+    Eigen::VectorXd x;
+};
+
+/// Moves `map` by `advance` until it arrives, and relaxes it there. Where it gets stuck the mesh is
+/// refined, at most `most_rounds` times. Returns false where that does not help.
+template <class Advance>
+bool arrive(MovingMap& map, double scale, int most_rounds, int most_triangles,
+            const Advance& advance, const Context& context) {
+    for (int round = 0; round < most_rounds && map.mesh.triangle_count() < most_triangles;
          ++round) {
-        TriangleSystem system(variables);
-        const std::vector<TargetShape> shapes = target_shapes(mesh, scale);
-        Arrival arrival = bring_to_integers(variables, system, shapes, x, goal, context);
-        if (arrival.arrived)
-            return relax_map(variables, system, shapes, arrival.x, relaxing_steps, context);
-        const std::vector<int> sides = longest_sides(mesh, variables.corner_coordinates(arrival.x),
-                                                     with_neighbours(mesh, arrival.tight));
+        TriangleSystem system(map.variables);
+        const std::vector<TargetShape> shapes = target_shapes(map.mesh, scale);
+        Arrival arrival = advance(map, system, shapes);
+        if (arrival.arrived) {
+            map.x = relax_map(map.variables, system, shapes, arrival.x, relaxing_steps, context);
+            return true;
+        }
+        const std::vector<int> sides =
+            longest_sides(map.mesh, map.variables.corner_coordinates(arrival.x),
+                          with_neighbours(map.mesh, arrival.tight));
         context.write_log(
             LogLevel::info,
             fmt::format("gridmap: {} triangles hold singularities back from the integer grid, "
                         "refining",
                         arrival.tight.size()));
-        if (sides.empty()) return std::nullopt;
-        x = refine_map(mesh, variables, std::move(arrival.x), sides);
+        if (sides.empty()) return false;
+        map.x = refine_map(map.mesh, map.variables, std::move(arrival.x), sides);
     }
+    return false;
+}
+
+/// Brings the map to the integers the straight way. Nothing where it is blocked.
+std::optional<MovingMap> go_straight(MovingMap map, const Quantization& whole, int most_triangles,
+                                     const Context& context) {
+    const Eigen::VectorXd goal = map.variables.lattice * whole.integers;
+    const auto advance = [&](const MovingMap& here, TriangleSystem& system,
+                             const std::vector<TargetShape>& shapes) {
+        return bring_to_integers(here.variables, system, shapes, here.x, goal, context);
+    };
+    if (arrive(map, whole.scale, straight_rounds, most_triangles, advance, context)) return map;
     return std::nullopt;
+}
+
+/// Brings the map to the integers along the path that the cones took, which may lead around one
+/// another. Nothing where that is too far.
+std::optional<MovingMap> go_along_path(MovingMap map, const Quantization& whole, int most_triangles,
+                                       const Context& context) {
+    context.write_log(LogLevel::info, fmt::format("gridmap: following the path of the cones, {} "
+                                                  "moves",
+                                                  whole.path.size() - 1));
+    std::vector<Eigen::VectorXd> path;
+    for (const Eigen::VectorXd& y : whole.path) {
+        const Eigen::VectorXd next = map.variables.lattice * y;
+        if (!path.empty()) {
+            const Eigen::VectorXd from = path.back();
+            const auto pieces =
+                static_cast<int>(std::ceil((next - from).cwiseAbs().maxCoeff() / longest_move));
+            for (int i = 1; i < pieces; ++i) path.emplace_back(from + (next - from) * i / pieces);
+        }
+        path.push_back(next);
+    }
+    std::size_t reached = 0;
+    const auto advance = [&](const MovingMap& here, TriangleSystem& system,
+                             const std::vector<TargetShape>& shapes) {
+        return follow_path(here.variables, system, shapes, here.x, path, reached, context);
+    };
+    if (arrive(map, whole.scale, winding_rounds, most_triangles, advance, context)) return map;
+    return std::nullopt;
+}
+
+/// Looks for whole numbers that the map can be brought to, and brings it there. Nothing, and the
+/// `obstacle`, where there are none.
+std::optional<MovingMap> find_whole_map(const MovingMap& real, const ConeTriangulation& cone,
+                                        const SeamlessMap& seamless, const WantedQuads& wanted,
+                                        int most_triangles, std::string& obstacle,
+                                        const Context& context) {
+    const auto scaled = [&](double scale) {
+        return MovingMap{real.mesh, real.variables, scale * real.x};
+    };
+    std::optional<Quantization> first;
+    for (const double share : counts_near) {
+        std::optional<Quantization> whole =
+            quantize(cone, seamless.stiffness, seamless.best_integers,
+                     {share * wanted.count, wanted.tolerance}, context);
+        if (!whole) {
+            obstacle = "the singularities find no room on the integer grid";
+            break;
+        }
+        context.write_log(LogLevel::debug, fmt::format("gridmap: {} quads at scale {:.4f}",
+                                                       whole->quads, whole->scale));
+        std::optional<MovingMap> arrived =
+            go_straight(scaled(whole->scale), *whole, most_triangles, context);
+        if (arrived) return arrived;
+        obstacle = "singularities are held back from the integer grid";
+        if (!first) first = std::move(whole);
+    }
+    if (!first) return std::nullopt;
+    return go_along_path(scaled(first->scale), *first, most_triangles, context);
 }
 
 /// The map at one density, or what stands in the way.
@@ -187,32 +271,28 @@ Attempt map_at_density(ChartedMesh mesh, const WantedQuads& wanted, const Contex
                                            seamless.reversed_triangles);
             attempt.depends_on_density = false;
             context.write_log(LogLevel::info, "gridmap: " + attempt.obstacle);
-            for (const int h :
-                 longest_sides(mesh, mesh.target,
-                               with_neighbours(mesh, reversed_triangles(shapes, corners)))) {
+            const std::vector<int> reversed = reversed_triangles(shapes, corners);
+            if (const int lines = give_up_lines_at(mesh, reversed); lines > 0) {
+                context.write_log(
+                    LogLevel::info,
+                    fmt::format("gridmap: {} feature edges there are no lines any more", lines));
+                // This is no refinement, and ends when there are no features left.
+                --round;
+                continue;
+            }
+            for (const int h : longest_sides(mesh, mesh.target, with_neighbours(mesh, reversed))) {
                 mesh.split_edge(h);
             }
             continue;
         }
         attempt.depends_on_density = true;
         const ConeTriangulation cone(mesh, variables, corners, seamless.integers);
-        const std::optional<Quantization> whole =
-            quantize(cone, seamless.stiffness, seamless.best_integers, wanted, context);
-        if (!whole) {
-            attempt.obstacle = "the singularities find no room on the integer grid";
-            return attempt;
-        }
-        context.write_log(LogLevel::debug, fmt::format("gridmap: {} quads at scale {:.4f}",
-                                                       whole->quads, whole->scale));
-        const Eigen::VectorXd goal = variables.lattice * whole->integers;
-        std::optional<Eigen::VectorXd> x =
-            reach_integers(mesh, variables, whole->scale, whole->scale * seamless.x, goal,
-                           most_triangles, context);
-        if (!x) {
-            attempt.obstacle = "singularities are held back from the integer grid";
-            continue;
-        }
-        GridMap map = fix_coordinates(mesh, variables, variables.corner_coordinates(*x));
+        const MovingMap real{mesh, variables, seamless.x};
+        const std::optional<MovingMap> arrived =
+            find_whole_map(real, cone, seamless, wanted, most_triangles, attempt.obstacle, context);
+        if (!arrived) return attempt;
+        GridMap map = fix_coordinates(arrived->mesh, arrived->variables,
+                                      arrived->variables.corner_coordinates(arrived->x));
         const GridMapReport report = verify_grid_map(map);
         if (report.valid()) {
             attempt.map = std::move(map);
@@ -229,6 +309,25 @@ Attempt map_at_density(ChartedMesh mesh, const WantedQuads& wanted, const Contex
 GridMap map_component(ChartedMesh mesh, const WantedQuads& wanted, const Context& context) {
     // No part has fewer quads than a triangle.
     const double quad_count = std::max(wanted.count, 3.0);
+    const auto has_features = [&] {
+        return std::find(mesh.is_line.begin(), mesh.is_line.end(), ChartedMesh::feature_line) !=
+               mesh.is_line.end();
+    };
+    if (has_features()) {
+        const int narrow = give_up_narrow_lines(mesh);
+        context.write_log(LogLevel::debug,
+                          fmt::format("gridmap: {} feature edges are too near others", narrow));
+        ChartedMesh with_lines = mesh;
+        separate_singularities(with_lines);
+        Attempt attempt =
+            map_at_density(std::move(with_lines), {quad_count, wanted.tolerance}, context);
+        if (attempt.map) return std::move(*attempt.map);
+        context.write_log(LogLevel::info,
+                          fmt::format("gridmap: not with the features of the part with triangle {} "
+                                      "as lines ({}); crosses follow them still",
+                                      mesh.parent.front(), attempt.obstacle));
+        std::replace(mesh.is_line.begin(), mesh.is_line.end(), ChartedMesh::feature_line, '\0');
+    }
     separate_singularities(mesh);
     std::string obstacle;
     for (const double factor : densities) {

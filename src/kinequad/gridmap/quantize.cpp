@@ -19,6 +19,8 @@ namespace {
 constexpr double wanted_room = 1.3;
 /// Length every edge between cones should keep, in cells; whole ones have at least 1.
 constexpr double wanted_distance = 1.2;
+/// Share by which the count may be missed where cones leave little choice.
+constexpr double rough = 0.1;
 /// How often rounding may get stuck before a scale is given up.
 constexpr int most_attempts = 6;
 
@@ -31,7 +33,8 @@ public:
           best_(std::move(best)),
           room_weight_(room_weight),
           context_(context),
-          is_fixed_(static_cast<std::size_t>(best_.size()), 0) {}
+          is_fixed_(static_cast<std::size_t>(best_.size()), 0),
+          path_(1, cone_.integers()) {}
 
     /// Whole numbers for all unknowns, or nothing where cones block each other.
     std::optional<Eigen::VectorXd> run() {
@@ -42,8 +45,23 @@ public:
     }
 
     double quads() const { return cone_.area(); }
+    std::vector<Eigen::VectorXd> take_path() { return std::move(path_); }
 
 private:
+    /// Moves the cones, and notes where to.
+    bool move(const Eigen::VectorXd& step) {
+        if (!cone_.move(step)) return false;
+        const Eigen::VectorXd& here = cone_.integers();
+        const std::size_t count = path_.size();
+        // A step that is taken back leaves no trace.
+        if (count > 1 && (path_[count - 2] - here).cwiseAbs().maxCoeff() < 1e-9) {
+            path_.pop_back();
+        } else {
+            path_.push_back(here);
+        }
+        return true;
+    }
+
     double energy() const {
         const Eigen::VectorXd away = cone_.integers() - best_;
         double sum = away.dot(stiffness_ * away);
@@ -131,7 +149,7 @@ private:
             for (double length = 1; length > 0.05; length /= 2) {
                 Eigen::VectorXd step = Eigen::VectorXd::Zero(best_.size());
                 step(free) = length * direction;
-                if (!cone_.move(step)) continue;
+                if (!move(step)) continue;
                 const double after = energy();
                 if (after < before) {
                     moved = before - after > 1e-4 * before;
@@ -139,7 +157,7 @@ private:
                     break;
                 }
                 // Where the way back is blocked the step stays.
-                if (!cone_.move(-step)) {
+                if (!move(-step)) {
                     before = after;
                     break;
                 }
@@ -240,7 +258,7 @@ private:
                     if (is_fixed_[static_cast<std::size_t>(j)]) step[j] = 0;
                 }
                 step[i] = whole - value;
-                if (!cone_.move(step)) continue;
+                if (!move(step)) continue;
                 Eigen::VectorXd exact = cone_.integers();
                 exact[i] = whole;
                 cone_.snap(exact);
@@ -250,21 +268,27 @@ private:
         return false;
     }
 
-    /// Steps of one unknown, or of two at once, by one cell, while they lower the energy.
+    /// Whole steps, one or two at once, while they lower the energy.
     void improve() {
+        const Eigen::MatrixXd steps = whole_steps();
+        const Eigen::MatrixXd pushed = stiffness_ * steps;
+        const Eigen::MatrixXd bend = steps.transpose() * pushed;
         double least = energy();
         const auto most_rounds = 40 * best_.size() + 10;
         for (Eigen::Index round = 0; round < most_rounds; ++round) {
             const double before = least;
-            for (const WholeStep& step : promising_steps()) {
-                least = take_if_better(step, before);
+            const Eigen::VectorXd slope = 2 * (pushed.transpose() * (cone_.integers() - best_));
+            for (const WholeStep& step : promising_steps(slope, bend)) {
+                Eigen::VectorXd way = step.first_sign * steps.col(step.first);
+                if (step.second >= 0) way += step.second_sign * steps.col(step.second);
+                least = take_if_better(way, before);
                 if (least < before) break;
             }
             if (!(least < before)) return;
         }
     }
 
-    /// A step of one unknown, or of two, and what it changes the energy without room by.
+    /// A step, or two, and what it changes the energy without room by.
     struct WholeStep {
         double change;
         int first;
@@ -275,23 +299,24 @@ private:
         auto order() const { return std::tie(change, first, first_sign, second, second_sign); }
     };
 
-    /// The steps that should gain most, best first.
-    std::vector<WholeStep> promising_steps() const {
+    /// The steps that should gain most, best first. The energy changes with step i by `slope_i +
+    /// bend_ii`, and by `2 bend_ij` more where j comes with it.
+    static std::vector<WholeStep> promising_steps(const Eigen::VectorXd& slope,
+                                                  const Eigen::MatrixXd& bend) {
         constexpr std::size_t most_steps = 200;
-        constexpr int most_unknowns_for_pairs = 600;
+        constexpr Eigen::Index most_in_pairs = 1000;
         constexpr double least_gain = 1e-9;
-        const auto count = static_cast<int>(best_.size());
-        const Eigen::VectorXd gradient = 2 * (stiffness_ * (cone_.integers() - best_));
+        const auto count = static_cast<int>(slope.size());
         std::vector<WholeStep> steps;
         for (int i = 0; i < count; ++i) {
             for (const int sign : {1, -1}) {
-                const double alone = sign * gradient[i] + stiffness_(i, i);
+                const double alone = sign * slope[i] + bend(i, i);
                 if (alone < -least_gain) steps.push_back({alone, i, sign});
-                if (count > most_unknowns_for_pairs) continue;
+                if (count > most_in_pairs) continue;
                 for (int j = 0; j < i; ++j) {
                     for (const int other : {1, -1}) {
-                        const double both = alone + other * gradient[j] + stiffness_(j, j) +
-                                            2 * sign * other * stiffness_(i, j);
+                        const double both =
+                            alone + other * slope[j] + bend(j, j) + 2 * sign * other * bend(j, i);
                         if (both < -least_gain) steps.push_back({both, i, sign, j, other});
                     }
                 }
@@ -305,18 +330,45 @@ private:
     }
 
     /// Takes a step that cones allow, and takes it back where the energy does not fall below
-    /// `before`. Returns the energy.
-    double take_if_better(const WholeStep& step, double before) {
+    /// `before` or a loop gets too short for quads. Returns the energy.
+    double take_if_better(const Eigen::VectorXd& step, double before) {
         context_.check_cancelled();
-        Eigen::VectorXd move = Eigen::VectorXd::Zero(best_.size());
-        move[step.first] = step.first_sign;
-        if (step.second >= 0) move[step.second] = step.second_sign;
-        if (!cone_.move(move)) return before;
+        const int short_before = count_short_loops();
+        if (!move(step)) return before;
         const double after = energy();
+        const bool is_better = after < before && count_short_loops() <= short_before;
         // Where the way back is blocked the step stays.
-        const bool stays = after < before || !cone_.move(-move);
+        const bool stays = is_better || !move(-step);
         snap_to_whole();
         return stays ? after : before;
+    }
+
+    /// Edges around a limb or a hole that are too short for a quad mesh.
+    int count_short_loops() const {
+        constexpr double tolerance = 1e-6;
+        int count = 0;
+        for (const int h : cone_.edges()) {
+            const double wanted = wanted_length(h);
+            if (wanted > wanted_distance && cone_.edge_length(h) < wanted - 0.2 - tolerance)
+                ++count;
+        }
+        return count;
+    }
+
+    /// One unknown by 1 a column; then, where they are not too many, the same with the others
+    /// following by whole numbers as far as they give way.
+    Eigen::MatrixXd whole_steps() const {
+        constexpr Eigen::Index most_followed = 500;
+        const Eigen::Index count = best_.size();
+        if (count > most_followed) return Eigen::MatrixXd::Identity(count, count);
+        const Eigen::MatrixXd compliance =
+            stiffness_.llt().solve(Eigen::MatrixXd::Identity(count, count));
+        Eigen::MatrixXd steps(count, 2 * count);
+        steps.leftCols(count).setIdentity();
+        for (Eigen::Index i = 0; i < count; ++i) {
+            steps.col(count + i) = (compliance.col(i) / compliance(i, i)).array().round();
+        }
+        return steps;
     }
 
     void snap_to_whole() { cone_.snap(cone_.integers().array().round()); }
@@ -327,6 +379,7 @@ private:
     double room_weight_;  ///< of the squares of lacking room against the energy
     const Context& context_;
     std::vector<char> is_fixed_;
+    std::vector<Eigen::VectorXd> path_;
 };
 
 }  // namespace
@@ -343,7 +396,7 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
     constexpr std::array<Detour, 8> detours = {
         {{1, 10}, {1.01, 10}, {0.99, 10}, {1, 40}, {1.02, 40}, {0.98, 40}, {1, 150}, {1.1, 150}}};
     // Rounding takes about the cube of the number of unknowns: with many there are fewer attempts.
-    const int most = std::clamp(3000 / std::max(1, static_cast<int>(best.size())), 8, 16);
+    const int most = std::clamp(3000 / std::max(1, static_cast<int>(best.size())), 8, 40);
     double centre = std::sqrt(wanted.count / cone.area());
     std::size_t blocked = 0;
     std::optional<Quantization> closest;
@@ -355,9 +408,19 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
                                                          : 0.07) *
                                               wanted.count);
     };
-    for (int attempt = 0; attempt < most && blocked < detours.size(); ++attempt) {
-        // Once there is a result, far detours cannot bring a closer one.
-        if (closest && (blocked > 2 || detours[blocked].scale > 1.05)) break;
+    int halvings = 0;
+    for (int attempt = 0; attempt < most; ++attempt) {
+        if (blocked == detours.size()) {
+            // Half way back to the scale that worked, where it is far off.
+            constexpr int most_halvings = 3;
+            if (!closest || miss(*closest) <= rough * wanted.count || halvings++ == most_halvings)
+                break;
+            centre = std::sqrt(centre * closest->scale);
+            blocked = 0;
+        }
+        // Once there is a result that will do, far detours cannot bring a closer one.
+        const bool will_do = closest && miss(*closest) <= rough * wanted.count;
+        if (will_do && (blocked > 2 || detours[blocked].scale > 1.05)) break;
         const double scale = centre * detours[blocked].scale;
         ConeTriangulation scaled = cone;
         scaled.scale(scale);
@@ -372,12 +435,13 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
             if (closest && miss(*closest) <= fair(attempt)) break;
             continue;
         }
-        const Quantization found{*integers, scale, rounding.quads()};
+        Quantization found{*integers, scale, rounding.quads(), rounding.take_path()};
+        const double quads = found.quads;
         const bool is_closer = !closest || miss(found) < miss(*closest);
-        if (is_closer) closest = found;
+        if (is_closer) closest = std::move(found);
         if (miss(*closest) <= fair(attempt)) break;
         if (is_closer) {
-            centre = scale * std::sqrt(wanted.count / found.quads);
+            centre = scale * std::sqrt(wanted.count / quads);
             blocked = 0;
         } else {
             ++blocked;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "kinequad/core/context.h"
 #include "kinequad/gridmap/cone_triangulation.h"
@@ -19,6 +20,9 @@ struct Quantization {
     Eigen::VectorXd integers;  ///< p whole numbers
     double scale = 1;  ///< cells of the real map are to be divided into `scale` cells a side
     double quads = 0;  ///< area of the map in cells
+    /// Values of the unknowns on the way from those of the map, times `scale`, to `integers`, which
+    /// come last: on straight lines from one to the next no cone runs into another.
+    std::vector<Eigen::VectorXd> path;
 };
 
 /// Rounds the unknowns of `cone` (in the injective seamless map) so that the energy

@@ -271,6 +271,14 @@ private:
     Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> factor_;
 };
 
+/// The triangles that hold back a map that stopped at `x`.
+std::vector<int> held_back(const Newton& newton, const Eigen::VectorXd& x) {
+    std::vector<int> triangles = newton.tight();
+    const std::vector<int> crushed = newton.crushed(x);
+    triangles.insert(triangles.end(), crushed.begin(), crushed.end());
+    return triangles;
+}
+
 }  // namespace
 
 Arrival bring_to_integers(const MapVariables& variables, TriangleSystem& system,
@@ -308,9 +316,72 @@ Arrival bring_to_integers(const MapVariables& variables, TriangleSystem& system,
         if (length > 0.3) weight = std::min(weight * 4, 1e6);
     }
     arrival.x = x;
-    arrival.tight = newton.tight();
-    const std::vector<int> crushed = newton.crushed(x);
-    arrival.tight.insert(arrival.tight.end(), crushed.begin(), crushed.end());
+    arrival.tight = held_back(newton, x);
+    return arrival;
+}
+
+Arrival follow_path(const MapVariables& variables, TriangleSystem& system,
+                    const std::vector<TargetShape>& shapes, Eigen::VectorXd x,
+                    const std::vector<Eigen::VectorXd>& path, std::size_t& reached,
+                    const Context& context) {
+    // Cones are at least about a cell apart: within a part of that there is one way only.
+    constexpr double sight = 0.4;
+    constexpr double near = 0.15;
+    constexpr double first_weight = 8;
+    constexpr int patience = 10;
+    Newton newton(variables, system, shapes, context);
+    Arrival arrival;
+    const std::size_t last = path.size() - 1;
+    const auto away_from = [&](std::size_t i) {
+        return (newton.whole_values(newton.chain(x)) - newton.whole_values(path[i]))
+            .cwiseAbs()
+            .maxCoeff();
+    };
+    double weight = first_weight;
+    double shortest = std::numeric_limits<double>::infinity();
+    std::size_t goal = reached;
+    int since_progress = 0;
+    for (int i = 0; since_progress < patience; ++i) {
+        // What lies before a goal that is passed is passed too.
+        for (std::size_t passed = goal; reached < last && passed >= reached; passed = reached) {
+            if (away_from(passed) >= near) break;
+            reached = std::min(passed + 1, last);
+            since_progress = 0;
+            if (passed == last) break;
+        }
+        std::size_t farthest = std::max(goal, reached);
+        while (farthest < last && away_from(farthest + 1) < sight) ++farthest;
+        if (farthest != goal) {
+            goal = farthest;
+            shortest = std::numeric_limits<double>::infinity();
+            weight = std::max(first_weight, weight / 4);
+        }
+        newton.set_pull(weight, path[goal]);
+        const double length = newton.step(x);
+        const double away = away_from(goal);
+        context.write_log(LogLevel::debug,
+                          fmt::format("gridmap: step {} of length {:.3f}, pull {:.3g}, {:.2e} to "
+                                      "go to {} of {} on the path",
+                                      i, length, weight, away, goal, last));
+        if (goal == last) {
+            Eigen::VectorXd snapped = x;
+            snapped.tail(variables.chain_columns) = path[last];
+            if (newton.can_go_straight(x, snapped)) {
+                reached = last;
+                arrival.x = snapped;
+                arrival.arrived = true;
+                return arrival;
+            }
+        }
+        ++since_progress;
+        if (away < 0.97 * shortest) {
+            shortest = away;
+            since_progress = 0;
+        }
+        if (length > 0.3) weight = std::min(weight * 4, 1e6);
+    }
+    arrival.x = x;
+    arrival.tight = held_back(newton, x);
     return arrival;
 }
 

@@ -19,6 +19,14 @@ Arrival bring_to_integers(const MapVariables& variables, TriangleSystem& system,
                           const std::vector<TargetShape>& shapes, Eigen::VectorXd x,
                           const Eigen::VectorXd& goal, const Context& context);
 
+/// The same along `path`, values of the chain columns of which the last are the goal, one after the
+/// other: where the straight way would drag a cone to the wrong side of another. Starts on the way
+/// to `path[reached]`, and counts `reached` up.
+Arrival follow_path(const MapVariables& variables, TriangleSystem& system,
+                    const std::vector<TargetShape>& shapes, Eigen::VectorXd x,
+                    const std::vector<Eigen::VectorXd>& path, std::size_t& reached,
+                    const Context& context);
+
 /// At most `most_steps` Newton steps on the energy with the chain columns kept.
 Eigen::VectorXd relax_map(const MapVariables& variables, TriangleSystem& system,
                           const std::vector<TargetShape>& shapes, Eigen::VectorXd x, int most_steps,

@@ -1,7 +1,12 @@
 #include "kinequad/mesh/feature_edges.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "kinequad/core/error.h"
 
 namespace kinequad {
 
@@ -25,6 +30,49 @@ std::vector<int> find_feature_edges(const Topology& topology, const Positions& V
         if (std::atan2(left.cross(right).norm(), left.dot(right)) > limit) features.push_back(e);
     }
     return features;
+}
+
+std::vector<int> edges_between(const Topology& topology,
+                               const std::vector<std::array<int, 2>>& pairs,
+                               const std::string& name) {
+    std::vector<int> edges;
+    for (const auto& [a, b] : pairs) {
+        int found = -1;
+        const bool exist = std::max(a, b) < topology.vertex_count && std::min(a, b) >= 0;
+        if (exist && topology.vertex_half_edge[static_cast<std::size_t>(a)] >= 0) {
+            for (const int h : outgoing_half_edges(topology, a)) {
+                const int before = Topology::previous(h);
+                // The last edge around a vertex of the boundary has no half-edge that leaves it.
+                if (topology.target(h) == b) found = topology.edge[static_cast<std::size_t>(h)];
+                if (topology.origin[static_cast<std::size_t>(before)] == b)
+                    found = topology.edge[static_cast<std::size_t>(before)];
+            }
+        }
+        if (found < 0) {
+            throw InputError(
+                InputFault::usage,
+                fmt::format("{}: the mesh has no edge between vertices {} and {}", name, a, b));
+        }
+        edges.push_back(found);
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+std::vector<int> edges_along(const Topology& topology, const RefinedMesh& fine,
+                             const Topology& coarse, const std::vector<int>& edges) {
+    std::vector<char> is_listed(static_cast<std::size_t>(coarse.edge_count), 0);
+    for (const int e : edges) is_listed[static_cast<std::size_t>(e)] = 1;
+    std::vector<int> found;
+    for (int e = 0; e < topology.edge_count; ++e) {
+        const int h = topology.edge_half_edge[static_cast<std::size_t>(e)];
+        const int side = side_of_parent(fine, h);
+        if (side >= 0 &&
+            is_listed[static_cast<std::size_t>(coarse.edge[static_cast<std::size_t>(side)])])
+            found.push_back(e);
+    }
+    return found;
 }
 
 }  // namespace kinequad

@@ -33,9 +33,19 @@ public:
             const auto corners = lay_out_triangle(side_lengths(topology, metric, t));
             for (int k = 0; k < 3; ++k) place_[at(3 * t + k)] = corners.col(k);
         }
+        is_line_side_.assign(origin_.size(), 0);
+        for (const int e : options.lines) {
+            const int h = topology.edge_half_edge[at(e)];
+            is_line_side_[at(h)] = 1;
+            if (topology.twin[at(h)] >= 0) is_line_side_[at(topology.twin[at(h)])] = 1;
+        }
         is_boundary_.resize(at(vertex_count_));
         for (int v = 0; v < vertex_count_; ++v) {
             is_boundary_[at(v)] = topology.is_boundary_vertex(v) ? 1 : 0;
+        }
+        for (const int e : options.lines) {
+            const int h = topology.edge_half_edge[at(e)];
+            is_boundary_[at(topology.origin[at(h)])] = is_boundary_[at(topology.target(h))] = 1;
         }
     }
 
@@ -109,7 +119,15 @@ private:
         if (length_[at(h)] > limit_[at(parent_[at(h / 3)])]) return true;
         const int end = origin_[at(Topology::next(h))];
         return twin_[at(h)] >= 0 && is_boundary_[at(origin_[at(h)])] != 0 &&
-               is_boundary_[at(end)] != 0;
+               is_boundary_[at(end)] != 0 && !is_on_line(h);
+    }
+
+    bool is_on_line(int h) const {
+        for (int k = 0; k < 3; ++k) {
+            if (barycentric_[at(h)][k] == 0 && barycentric_[at(Topology::next(h))][k] == 0)
+                return is_line_side_[at(3 * parent_[at(h / 3)] + (k + 1) % 3)] != 0;
+        }
+        return false;
     }
 
     void offer(int h) {
@@ -152,7 +170,7 @@ private:
     void split(int h) {
         const int other = twin_[at(h)];
         const int w = vertex_count_++;
-        is_boundary_.push_back(static_cast<char>(other < 0));
+        is_boundary_.push_back(static_cast<char>(other < 0 || is_on_line(h)));
         const double half = length_[at(h)] / 2;
         const int far = halve(h, w);
         length_[at(h)] = half;
@@ -265,8 +283,9 @@ private:
     std::vector<Vector3> barycentric_;
     std::vector<Vector2> place_;  ///< of a corner in the plane of its input triangle
     std::vector<double> length_;
-    std::vector<double> limit_;  ///< of a triangle of the input
-    std::vector<char> is_boundary_;
+    std::vector<double> limit_;       ///< of a triangle of the input
+    std::vector<char> is_boundary_;   ///< by vertex: on the boundary or on a line
+    std::vector<char> is_line_side_;  ///< of a half-edge of the input: on a line
     std::priority_queue<Candidate> queue_;
 };
 

@@ -43,4 +43,13 @@ RefinedMesh as_refinement_of_input(const RefinedMesh& outer, const RefinedMesh& 
     return mesh;
 }
 
+int side_of_parent(const RefinedMesh& mesh, int h) {
+    const int next = h % 3 == 2 ? h - 2 : h + 1;
+    for (int k = 0; k < 3; ++k) {
+        if (mesh.barycentric(h, k) == 0 && mesh.barycentric(next, k) == 0)
+            return 3 * mesh.parent[static_cast<std::size_t>(h / 3)] + (k + 1) % 3;
+    }
+    return -1;
+}
+
 }  // namespace kinequad

@@ -24,6 +24,10 @@ RefinedMesh as_refined_mesh(const Triangles& F, int vertex_count);
 /// to no triangle.
 std::vector<SurfacePoint> vertex_points(const RefinedMesh& mesh);
 
+/// The half-edge of the input whose edge the half-edge `h` of a refined mesh lies on, -1 where it
+/// lies inside an input triangle.
+int side_of_parent(const RefinedMesh& mesh, int h);
+
 /// A point of a refined mesh as a point of the input.
 SurfacePoint point_of_input(const RefinedMesh& mesh, const SurfacePoint& point);
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "kinequad/field/cross_field_method.h"
 
@@ -42,13 +44,16 @@ struct Options {
     /// and `symmetry`. With 0 the run sees a single pose, the reference frame.
     std::optional<double> alpha;
     double curvature = 0.1;  ///< influence of the curvature on the cross field (`convex` only)
-    /// Edges across which the reference frame turns by more than this are features, which crosses
-    /// are aligned with, in degrees; 0: none.
+    /// Edges across which the reference frame turns by more than this are features, which become
+    /// chains of quad edges, in degrees; 0: none.
     double feature_angle = 0;
+    /// Further features: pairs of vertices of the input that an edge joins.
+    std::vector<std::array<int, 2>> features = {};
     /// Energy that a singularity may cost, in rad^2 (`convex` only); empty: what was measured best
     /// with `symmetry`.
     std::optional<double> singularity_cost;
-    /// Empty: `mean`, and `reference` where `alpha` is 0.
+    /// Empty: `mean`, and `reference` where `alpha` is 0, or where quads for the mean would shear
+    /// the reference for little (without symmetry, `convex` only).
     std::optional<MetricChoice> metric;
     int reference = 0;     ///< frame that is the reference, or `rest_shape`
     int relax_rounds = 8;  ///< passes in which vertices slide towards squares; 0: none

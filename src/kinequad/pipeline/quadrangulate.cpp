@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "kinequad/core/error.h"
+#include "kinequad/deformation/mean_shear.h"
 #include "kinequad/extract/verify_quad_mesh.h"
 #include "kinequad/gridmap/compute_grid_map.h"
 #include "kinequad/io/memory_sequence.h"
+#include "kinequad/mesh/feature_edges.h"
+#include "kinequad/mesh/widen_flat_triangles.h"
 #include "kinequad/pipeline/check_input.h"
 #include "kinequad/pipeline/refine_coarse_input.h"
 #include "kinequad/pipeline/solve_quads.h"
@@ -23,6 +26,39 @@ namespace {
 Positions read_reference_frame(const FrameSource& source, int reference) {
     return reference == Options::rest_shape ? source.read_rest_shape()
                                             : source.read_frame(reference);
+}
+
+/// The feature edges of the input, by angle and by name.
+std::vector<int> find_features(const Topology& topology, const Positions& reference,
+                               const Options& options) {
+    std::vector<int> features = edges_between(topology, options.features, "features");
+    if (options.feature_angle > 0) {
+        const std::vector<int> sharp =
+            find_feature_edges(topology, reference, options.feature_angle);
+        features.insert(features.end(), sharp.begin(), sharp.end());
+        std::sort(features.begin(), features.end());
+        features.erase(std::unique(features.begin(), features.end()), features.end());
+    }
+    return features;
+}
+
+/// Whether quads for the mean lengths would shear the reference pose (n x 3) for little: the frames
+/// differ so much from one another that none is like their mean. docs/deformation.md
+bool is_reference_better(const FrameSource& frames, const Topology& topology,
+                         const IntrinsicMetric& mean, const Positions& reference,
+                         const Context& context) {
+    constexpr double least_gain = 0.3;
+    constexpr double most_cost = 0.2;
+    if (frames.frame_count() < 2) return false;
+    const IntrinsicMetric pose = widen_flat_triangles(topology, metric_of(topology, reference));
+    const MetricComparison comparison = compare_metrics(frames, topology, mean, pose, context);
+    const bool result =
+        comparison.cost > most_cost && comparison.gain < least_gain * comparison.cost;
+    context.write_log(LogLevel::info,
+                      fmt::format("metric: the mean shears frames by {:.4f} less, the reference by "
+                                  "{:.4f}; quads are for the {}",
+                                  comparison.gain, comparison.cost, result ? "reference" : "mean"));
+    return result;
 }
 
 /// Every component needs area, or no quad can lie on it.
@@ -92,10 +128,11 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     result.reference = read_reference_frame(source, result.options.reference);
     require_valid_input(source, result.reference, context);
     result.topology = build_topology(source.triangles(), source.vertex_count());
+    result.features = find_features(result.topology, result.reference, result.options);
     // A symmetry map is made of the input as it is: seams would not fit where both sides are cut.
     if (result.options.symmetry == SymmetryMode::none) {
-        result.refined =
-            refine_coarse_input(result.topology, result.reference, result.options, context);
+        result.refined = refine_coarse_input(result.topology, result.reference, result.features,
+                                             result.options, context);
     }
     finish_stage("check");
 
@@ -114,8 +151,14 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
                      surface.name());
     }
     const FrameSource& frames = pose ? *pose : surface;
-    const IntrinsicMetric metric =
-        choose_metric(frames, topology, reference, result.options, context);
+    IntrinsicMetric metric = choose_metric(frames, topology, reference, result.options, context);
+    const bool is_choice_free = !options.metric && result.options.metric == MetricChoice::mean &&
+                                result.options.symmetry == SymmetryMode::none &&
+                                result.options.field == CrossFieldMethod::convex;
+    if (is_choice_free && is_reference_better(frames, topology, metric, reference, context)) {
+        result.options.metric = MetricChoice::reference;
+        metric = choose_metric(frames, topology, reference, result.options, context);
+    }
     check_areas(source, topology, metric_of(topology, reference));
     result.edge_length = result.options.edge_length > 0
                              ? result.options.edge_length

@@ -14,6 +14,7 @@ constexpr double longest_edge = 2;
 }  // namespace
 
 std::optional<RefinedMesh> refine_coarse_input(const Topology& topology, const Positions& V,
+                                               const std::vector<int>& features,
                                                const Options& options, const Context& context) {
     const IntrinsicMetric metric = metric_of(topology, V);
     const double quad_edge = options.edge_length > 0
@@ -22,6 +23,7 @@ std::optional<RefinedMesh> refine_coarse_input(const Topology& topology, const P
     if (!(quad_edge > 0)) return std::nullopt;
     RefineOptions refine_options;
     refine_options.longest_edge = longest_edge * quad_edge;
+    refine_options.lines = features;
     RefinedMesh refined = refine_long_edges(topology, metric, refine_options, context);
     if (refined.F.rows() == topology.triangle_count) return std::nullopt;
     context.write_log(LogLevel::info,

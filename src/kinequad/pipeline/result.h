@@ -30,10 +30,11 @@ struct MirrorQuality {
 
 /// What every stage of a run made.
 struct Result {
-    Options options;         ///< as given, with empty fields filled in
-    double edge_length = 0;  ///< wanted edge length of the quads, in units of the input
-    Topology topology;       ///< of the input
-    Positions reference;     ///< n x 3: the input in the reference frame
+    Options options;            ///< as given, with empty fields filled in
+    double edge_length = 0;     ///< wanted edge length of the quads, in units of the input
+    Topology topology;          ///< of the input
+    Positions reference;        ///< n x 3: the input in the reference frame
+    std::vector<int> features;  ///< edges of the input that the quads should follow
     /// The input refined, where it is too coarse for the quads; symmetry is then over this.
     std::optional<RefinedMesh> refined;
     std::optional<FoundSymmetry> symmetry;  ///< where the run made use of it

@@ -89,6 +89,8 @@ Json map_record(const Result& result) {
     const GridMapReport report = verify_grid_map(result.map);
     return {{"triangles", result.map.mesh.F.rows()},
             {"flipped_triangles", report.flipped_triangles},
+            {"feature_edges_wanted", result.domain.feature_edges.size()},
+            {"feature_edges_on_lines", result.map.feature_edges.size()},
             {"valid", report.valid()}};
 }
 
@@ -129,6 +131,7 @@ nlohmann::ordered_json make_options_record(const Options& options) {
         {"alpha", *options.alpha},
         {"curvature", options.curvature},
         {"feature_angle", options.feature_angle},
+        {"features", options.features.size()},
         {"singularity_cost", *options.singularity_cost},
         {"metric", options.metric == MetricChoice::mean ? "mean" : "reference"},
         {"reference", rest ? Json("rest") : Json(options.reference)},

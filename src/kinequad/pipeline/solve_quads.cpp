@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -57,6 +58,46 @@ double orbit_weight(const Options& options) {
                                                     : gentle;
 }
 
+/// Multiplies the factor (n) of singularities on those connected parts that have fewer than
+/// `least_room` quads of `edge_length` for each. Returns whether there are any.
+bool price_crowds(const Topology& topology, const IntrinsicMetric& metric, double edge_length,
+                  const CrossField& field, std::vector<double>& cost_factor) {
+    constexpr double least_room = 8;
+    constexpr double increase = 4;
+    const std::vector<int> part = triangle_components(topology);
+    const int parts = 1 + *std::max_element(part.begin(), part.end());
+    const Eigen::VectorXd areas = triangle_areas(topology, metric);
+    std::vector<double> quads(static_cast<std::size_t>(parts), 0);
+    std::vector<int> singular(static_cast<std::size_t>(parts), 0);
+    std::vector<int> part_of_vertex(static_cast<std::size_t>(topology.vertex_count), -1);
+    for (int t = 0; t < topology.triangle_count; ++t) {
+        const int p = part[static_cast<std::size_t>(t)];
+        quads[static_cast<std::size_t>(p)] += areas[t] / (edge_length * edge_length);
+        for (int h = 3 * t; h < 3 * t + 3; ++h) {
+            part_of_vertex[static_cast<std::size_t>(topology.origin[static_cast<std::size_t>(h)])] =
+                p;
+        }
+    }
+    // Corners of the boundary have to be where they are.
+    const auto is_counted = [&](int v) {
+        return part_of_vertex[static_cast<std::size_t>(v)] >= 0 && !topology.is_boundary_vertex(v);
+    };
+    for (int v = 0; v < topology.vertex_count; ++v) {
+        if (is_counted(v) && field.index[v] != 0)
+            ++singular[static_cast<std::size_t>(part_of_vertex[static_cast<std::size_t>(v)])];
+    }
+    bool found = false;
+    cost_factor.resize(static_cast<std::size_t>(topology.vertex_count), 1);
+    for (int v = 0; v < topology.vertex_count; ++v) {
+        if (!is_counted(v)) continue;
+        const auto p = static_cast<std::size_t>(part_of_vertex[static_cast<std::size_t>(v)]);
+        if (singular[p] * least_room <= quads[p]) continue;
+        cost_factor[static_cast<std::size_t>(v)] *= increase;
+        found = true;
+    }
+    return found;
+}
+
 CrossField make_cross_field(const Result& result, const Context& context) {
     CrossFieldTargetOptions target_options;
     target_options.method = result.options.field;
@@ -80,12 +121,29 @@ CrossField make_cross_field(const Result& result, const Context& context) {
             verify_cross_field(result.domain.topology, result.domain.metric, field, options));
         return field;
     };
-    if (result.options.symmetry != SymmetryMode::field) return solve(targets);
-    if (result.options.symmetrisation == Symmetrisation::term) {
+    const bool is_symmetric = result.options.symmetry == SymmetryMode::field;
+    const bool is_averaged =
+        is_symmetric && result.options.symmetrisation == Symmetrisation::orbits;
+    if (is_symmetric && !is_averaged) {
         options.symmetry = symmetry_term(result.symmetry->map, symmetry_weight);
-        return solve(targets);
     }
-    const CrossField field = solve(targets);
+    CrossField field = solve(targets);
+    constexpr int most_increases = 4;
+    for (int i = 0; i < most_increases && options.method == CrossFieldMethod::convex; ++i) {
+        if (!price_crowds(result.domain.topology, result.domain.metric, result.edge_length, field,
+                          options.cost_factor))
+            break;
+        const auto singular = (field.index.array() != 0).count();
+        CrossField fewer = solve(targets);
+        const auto left = (fewer.index.array() != 0).count();
+        if (left >= singular) break;
+        context.write_log(LogLevel::info,
+                          fmt::format("field: {} singularities instead of {}, as quads have no "
+                                      "room for more",
+                                      left, singular));
+        field = std::move(fewer);
+    }
+    if (!is_averaged) return field;
     return solve(average_over_orbits(result.domain.topology, result.domain.metric, field,
                                      result.symmetry->map, orbit_weight(result.options), context));
 }
@@ -126,6 +184,7 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
     GridMapOptions options;
     options.edge_length = result.edge_length;
     if (!domain.is_half()) options.line_edges = domain.curve_edges();
+    options.feature_edges = domain.feature_edges;
     for (int attempt = 1;; ++attempt) {
         try {
             result.map =
@@ -161,10 +220,11 @@ IntrinsicMetric choose_metric(const FrameSource& frames, const Topology& topolog
 
 void solve_field(const std::vector<DomainView>& views, Result& result, const Context& context,
                  const std::function<void(const char* stage)>& finish_stage) {
-    if (result.options.feature_angle > 0) {
-        result.domain.feature_edges = find_feature_edges(
-            result.domain.topology, views.front().reference, result.options.feature_angle);
-    }
+    const RefinedMesh& surface = result.domain.surface.mesh;
+    result.domain.feature_edges =
+        edges_along(result.domain.topology,
+                    result.refined ? as_refinement_of_input(*result.refined, surface) : surface,
+                    result.topology, result.features);
     result.tensors = measure_deformation(views, result, context);
     finish_stage("deformation");
     result.field = make_cross_field(result, context);
@@ -186,8 +246,10 @@ QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const
                                                    : std::nullopt;
         relax_options.line_edges = domain.curve_edges();
         const std::vector<int> boundary = boundary_edges(domain.topology);
-        relax_options.line_edges.insert(relax_options.line_edges.end(), boundary.begin(),
-                                        boundary.end());
+        for (const std::vector<int>& lines : {boundary, result.map.feature_edges}) {
+            relax_options.line_edges.insert(relax_options.line_edges.end(), lines.begin(),
+                                            lines.end());
+        }
         std::vector<RelaxView> relax_views;
         relax_views.reserve(views.size());
         for (const DomainView& view : views) relax_views.push_back({view.frames, view.reference});

@@ -20,7 +20,7 @@ constexpr double wanted_room = 1.3;
 /// Length every edge between cones should keep, in cells; whole ones have at least 1.
 constexpr double wanted_distance = 1.2;
 /// Share by which the count may be missed where cones leave little choice.
-constexpr double rough = 0.1;
+constexpr double rough = 0.045;
 /// How often rounding may get stuck before a scale is given up.
 constexpr int most_attempts = 6;
 
@@ -404,8 +404,8 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
     // The longer it takes, the more is fair.
     const auto fair = [&](int attempt) {
         return std::max(wanted.tolerance, (attempt < 1   ? 0.02
-                                           : attempt < 3 ? 0.04
-                                                         : 0.07) *
+                                           : attempt < 3 ? 0.03
+                                                         : 0.045) *
                                               wanted.count);
     };
     int halvings = 0;

@@ -81,6 +81,25 @@ void check_areas(const FrameSource& source, const Topology& topology,
     }
 }
 
+/// A symmetry map is made of the input as it is, so it has to have triangles enough for a field of
+/// its own on every connected part.
+void require_symmetric_detail(const FrameSource& source, const Topology& topology) {
+    constexpr int least_triangles = 4;
+    const std::vector<int> component = triangle_components(topology);
+    std::vector<int> count(
+        static_cast<std::size_t>(1 + *std::max_element(component.begin(), component.end())), 0);
+    for (const int c : component) ++count[static_cast<std::size_t>(c)];
+    for (int t = 0; t < topology.triangle_count; ++t) {
+        const int triangles =
+            count[static_cast<std::size_t>(component[static_cast<std::size_t>(t)])];
+        require(
+            triangles >= least_triangles, InputFault::symmetry,
+            fmt::format("{}: the connected part with triangle {} has {} triangle{}, too few for "
+                        "symmetric quads; subdivide it, or run with --symmetry none",
+                        source.name(), t, triangles, triangles == 1 ? "" : "s"));
+    }
+}
+
 /// Says where the wanted number of vertices was missed, and why.
 void note_density(Result& result, const Context& context) {
     constexpr double allowed = 0.1;
@@ -175,6 +194,7 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
         solve_field(views, result, context, finish_stage);
         result.quads = solve_quads(views, result, context, finish_stage);
     } else {
+        require_symmetric_detail(source, topology);
         result.symmetry = find_symmetry(frames, metric, landmarks, reference, context);
         result.quads = result.options.symmetry == SymmetryMode::field
                            ? solve_symmetric_field(solved, result, context, finish_stage)

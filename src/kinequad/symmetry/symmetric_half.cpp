@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "kinequad/core/error.h"
 #include "kinequad/mesh/pose_search.h"
@@ -72,8 +73,9 @@ int boundary_half_edge_of(const Topology& topology, const SurfacePoint& point) {
 }
 
 /// Gives every boundary vertex of the half that is off the curve an image on the boundary: a loop
-/// goes to the loop that most of its vertices are mapped next to, evenly by length. One that the
-/// curve crosses goes from crossing to crossing.
+/// goes to the loop that most of its vertices are mapped next to, evenly by length. One that has no
+/// partner there, as a hole that one side of a scan has alone, keeps its image inside the surface.
+/// One that the curve crosses goes from crossing to crossing.
 class BoundaryMirror {
 public:
     BoundaryMirror(const Topology& topology, const IntrinsicMetric& metric,
@@ -118,14 +120,20 @@ private:
     void mirror_loop(SymmetricHalf& half, const std::vector<int>& vertices) const {
         std::map<int, int> votes;
         std::vector<BoundaryPlace> near;
+        double distance = 0;
         for (const int v : vertices) {
             near.push_back(nearest_place(half, v));
             ++votes[near.back().loop];
+            distance += (search_.place(half.mirrored[at(v)]) -
+                         search_.place(arcs_.point_at(near.back())))
+                            .norm() /
+                        static_cast<double>(vertices.size());
         }
         const int loop = std::max_element(votes.begin(), votes.end(), [](auto& a, auto& b) {
                              return a.second < b.second;
                          })->first;
         const int own = arcs_.locate(points_[at(vertices.front())]).loop;
+        if (distance > (arcs_.length(own) + arcs_.length(loop)) / 2) return;
         const double ratio = arcs_.length(loop) / std::max(arcs_.length(own), 1e-300);
         const double turn = 2 * std::numbers::pi / arcs_.length(loop);
         Complex start = 0;
@@ -168,13 +176,13 @@ private:
     const std::vector<SurfacePoint>& points_;  ///< of the half's vertices on the input
 };
 
-/// The image of a point of the half's boundary between two vertices whose images are on the
+/// The image of a point of the half's boundary between two vertices, if their images are on the
 /// boundary of the input.
-SurfacePoint mirror_on_boundary(const BoundaryArcs& arcs, const SurfacePoint& a,
+std::optional<SurfacePoint> mirror_on_boundary(const BoundaryArcs& arcs, const SurfacePoint& a,
                                 const SurfacePoint& b, double share) {
     const BoundaryPlace from = arcs.locate(a);
     const BoundaryPlace to = arcs.locate(b);
-    if (from.loop < 0 || from.loop != to.loop) return share < 0.5 ? a : b;
+    if (from.loop < 0 || from.loop != to.loop) return std::nullopt;
     const double whole = arcs.length(from.loop);
     // The mirror image of the boundary runs the other way around.
     double way = std::fmod(from.position - to.position, whole);
@@ -270,16 +278,16 @@ std::vector<SurfacePoint> mirror_points(const SymmetricHalf& half, const Topolog
             wanted += point.barycentric[k] * search.place(half.mirrored[at(v)]);
         }
         const int h = boundary_half_edge_of(half_topology, point);
+        std::optional<SurfacePoint> on_boundary;
         if (h >= 0) {
             const double share =
                 point.triangle == h / 3 ? point.barycentric[Topology::next(h) % 3] : 0.0;
-            result.push_back(mirror_on_boundary(arcs,
-                                                half.mirrored[at(half_topology.origin[at(h)])],
-                                                half.mirrored[at(half_topology.target(h))], share));
-            continue;
+            on_boundary =
+                mirror_on_boundary(arcs, half.mirrored[at(half_topology.origin[at(h)])],
+                                   half.mirrored[at(half_topology.target(h))], share);
         }
         const int start = half.mirrored[at(half.mesh.F(point.triangle, nearest))].triangle;
-        result.push_back(search.find(wanted, start));
+        result.push_back(on_boundary ? *on_boundary : search.find(wanted, start));
     }
     return result;
 }

@@ -237,7 +237,7 @@ void add_method_options(CLI::App& app, RunCommand& command) {
     app.add_option(
         "--singularity-cost", options.singularity_cost,
         "Energy that one singularity may cost, in squared radians (convex only) [0.08; 0.1 "
-        "with --symmetry exact or field]");
+        "with --symmetry exact]");
     app.add_option("--relax", options.relax_rounds,
                    "Rounds in which the vertices slide over the surface towards squares; 0: none")
         ->check(CLI::NonNegativeNumber)

@@ -51,27 +51,33 @@ FieldState settle_targets(const FieldProblem& problem, const AngleSolver& solver
 FieldState search_field(const FieldProblem& problem, const Topology& topology,
                         const IntrinsicMetric& metric, const CrossFieldOptions& options,
                         const Context& context) {
-    const AngleSolver solver(problem);
+    const AngleSolver final_solver(problem);
     const SingularityPrice price(problem, topology, options.singularity_cost,
                                  options.adjacency_cost, short_edges(metric, options.edge_length),
                                  options.cost_factor);
-    const auto search = [&](const FieldProblem& form, FieldState state) {
+    const auto search = [&](const FieldProblem& form, const AngleSolver& solver, FieldState state) {
         SolvedField field = solve_field(form, solver, price, std::move(state));
         field = improve_periods(form, solver, price, std::move(field), context);
         field = cancel_pairs(form, solver, price, std::move(field), context);
         field = improve_periods(form, solver, price, std::move(field), context);
         return settle_targets(form, solver, price, std::move(field));
     };
-    const auto start = [&](const FieldProblem& form) {
+    const auto start = [&](FieldProblem form) {
         FieldState state;
         state.angle = solve_convex_field(form, context);
         state.period_jump = nearest_period_jumps(form, state.angle);
-        return search(form, std::move(state));
+        if (!(form.symmetry.weight > 0)) return search(form, final_solver, std::move(state));
+        // Under the symmetry term singularities go in fours or not at all: at first they go without
+        // it, and pair up again under it later.
+        form.symmetry.weight = 0;
+        return search(form, AngleSolver(form), std::move(state));
     };
-    if (!(options.edge_length > 0)) return start(problem);
-    const FieldProblem smooth =
-        smooth_connection(problem, topology, metric, options.edge_length / 2);
-    return search(problem, start(smooth));
+    const bool is_smoothed = options.edge_length > 0;
+    FieldState state =
+        start(is_smoothed ? smooth_connection(problem, topology, metric, options.edge_length / 2)
+                          : problem);
+    if (!is_smoothed && !(problem.symmetry.weight > 0)) return state;
+    return search(problem, final_solver, std::move(state));
 }
 
 FieldState round_field(const FieldProblem& problem, const Topology& topology,

@@ -31,9 +31,9 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape, b
                             : symmetric;
     }
     if (!options.singularity_cost) {
-        options.singularity_cost = options.symmetry == SymmetryMode::none ? 0.08
-                                   : is_twice_solved                      ? 0.2
-                                                                          : 0.1;
+        options.singularity_cost = options.symmetry == SymmetryMode::exact ? 0.1
+                                   : is_twice_solved                       ? 0.2
+                                                                           : 0.08;
     }
     if (!options.metric) {
         options.metric = *options.alpha == 0 ? MetricChoice::reference : MetricChoice::mean;

@@ -340,6 +340,19 @@ GridMap map_component(ChartedMesh mesh, const WantedQuads& wanted, const Context
                                       "{} ({}); trying more",
                                       factor * quad_count, mesh.parent.front(), obstacle));
     }
+    const auto is_fixed_line = [](char line) {
+        return line != 0 && line != ChartedMesh::feature_line;
+    };
+    if (std::any_of(mesh.is_line.begin(), mesh.is_line.end(), is_fixed_line)) {
+        context.write_log(
+            LogLevel::warning,
+            fmt::format("gridmap: not with the line of symmetry through the part "
+                        "with triangle {} as a line ({}); giving up what is in the way",
+                        mesh.parent.front(), obstacle));
+        std::replace_if(mesh.is_line.begin(), mesh.is_line.end(), is_fixed_line,
+                        ChartedMesh::feature_line);
+        return map_component(std::move(mesh), wanted, context);
+    }
     throw GridMapError(
         fmt::format("no valid grid map for the part with triangle {}: {}; ask for more vertices",
                     mesh.parent.front(), obstacle));

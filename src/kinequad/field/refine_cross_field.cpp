@@ -3,14 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinequad/core/index.h"
 #include "kinequad/field/field_problem.h"
 
 namespace kinequad {
 namespace {
-
-constexpr double quarter = std::numbers::pi / 2;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The half-edge of the parent that half-edge `h` of the refined mesh lies on, -1 inside.
 int half_edge_of_parent(const RefinedMesh& fine, int h) {

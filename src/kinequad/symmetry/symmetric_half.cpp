@@ -7,14 +7,13 @@
 #include <numbers>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/mesh/pose_search.h"
 #include "kinequad/mesh/split_along_level.h"
 #include "kinequad/symmetry/boundary_arcs.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Share of an edge within which vertices come to lie on the curve.
 constexpr double snap_share = 0.2;

@@ -10,14 +10,13 @@
 #include <vector>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/io/files.h"
 
 namespace kinequad::app {
 namespace {
 
 using Json = nlohmann::json;
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 /// A colour that tells places apart: bands of hue from bottom to top, fields of light and dark.
 Vector3 color_at(const Vector3& place, const Vector3& low, double size) {

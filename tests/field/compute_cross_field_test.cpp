@@ -20,7 +20,7 @@ using test::random_targets;
 using test::Surface;
 using test::surface_of;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr auto both_methods = {CrossFieldMethod::convex, CrossFieldMethod::paper};
 
 /// Distance of an angle to the nearest quarter turn, radians.

@@ -15,7 +15,7 @@ namespace {
 using test::Surface;
 using test::surface_of;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// `b^T L^+ b` with `b = defect - pi/2 index` and the uniform Laplacian L of the vertices.
 double charge_energy(const FieldProblem& problem, const Eigen::VectorXi& index) {

@@ -12,8 +12,6 @@
 namespace kinequad {
 namespace {
 
-using test::at;
-
 double cross(Complex a, Complex b) { return std::imag(std::conj(a) * b); }
 
 double chart_area(const ChartedMesh& mesh) {
@@ -167,7 +165,6 @@ TEST(CutToDiscs, LeavesNoTurnOffTheCutAndOneDiscAComponent) {
             return t;
         };
         std::vector<int> cut_degree(at(mesh.vertex_count), 0);
-        int uncut_edges = 0;
         for (int h = 0; h < 3 * triangles; ++h) {
             const int other = mesh.twin[at(h)];
             if (other < 0) {
@@ -180,7 +177,6 @@ TEST(CutToDiscs, LeavesNoTurnOffTheCutAndOneDiscAComponent) {
                 continue;
             }
             EXPECT_EQ(mesh.rotation[at(h)], 0);
-            uncut_edges += h < other ? 1 : 0;
             group[at(root(h / 3))] = root(other / 3);
         }
         std::set<int> parts;

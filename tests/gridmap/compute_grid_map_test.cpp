@@ -12,8 +12,6 @@
 namespace kinequad {
 namespace {
 
-using test::at;
-
 GridMap map_of(const test::Surface& surface, int vertices, const Context& context = {}) {
     const CrossField field = test::field_of(surface);
     return compute_grid_map(surface.topology, surface.metric, field, {.vertex_count = vertices},

@@ -22,8 +22,6 @@ std::size_t edges_shorter(const ConeTriangulation& cone, double length) {
         edges.begin(), edges.end(), [&](int h) { return cone.edge_length(h) < length; }));
 }
 
-using test::at;
-
 struct ConeMap {
     test::PreparedMap map;
     SeamlessMap seamless;

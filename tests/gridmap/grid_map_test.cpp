@@ -8,8 +8,6 @@
 namespace kinequad {
 namespace {
 
-using test::grid_maps::at;
-
 constexpr GridMap::Coordinate half = {GridMap::one / 2, GridMap::one / 2};
 
 GridMap cube_map() { return test::map_polycube({{0, 0, 0}}, 3, 3).map; }

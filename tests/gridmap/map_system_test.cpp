@@ -7,8 +7,6 @@
 namespace kinequad {
 namespace {
 
-using test::at;
-
 std::vector<test::Surface> tiny_surfaces() {
     return {test::surface_of(test::tetrahedron(), "tetrahedron"),
             test::surface_of(test::square(2), "square"),

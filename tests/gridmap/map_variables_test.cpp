@@ -11,8 +11,6 @@
 namespace kinequad {
 namespace {
 
-using test::at;
-
 TEST(MapVariables, AnyValuesGiveASeamlessMap) {
     std::mt19937 random(1);
     for (const test::Surface& surface : test::map_surfaces()) {

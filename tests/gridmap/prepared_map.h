@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "field/surfaces.h"
+#include "kinequad/core/index.h"
 #include "kinequad/gridmap/charted_mesh.h"
 #include "kinequad/gridmap/map_system.h"
 #include "kinequad/gridmap/map_variables.h"
@@ -14,8 +15,6 @@
 
 /// What the steps of the grid map hand to one another, for tests of single steps.
 namespace kinequad::test {
-
-inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Solid of 13 cubes with two holes: a surface of genus 2.
 inline TriangleMesh double_ring(int n) {

@@ -9,8 +9,6 @@
 namespace kinequad {
 namespace {
 
-using test::at;
-
 /// The energy of `relax_map` by its definition: `sum_t A_t (|J - 1|^2 + 2 (turn_weight - 1) (Im
 /// a)^2 + 2 (shear_weight - 1) (Im b)^2 + 0.1 ((|J|^2 + 1) / det J + det J - 4))`.
 double distortion(const test::PreparedMap& map, const Eigen::VectorXd& x) {

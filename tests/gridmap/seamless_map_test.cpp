@@ -9,8 +9,6 @@
 namespace kinequad {
 namespace {
 
-using test::at;
-
 SeamlessMap solve(const test::PreparedMap& map) {
     TriangleSystem system(map.variables);
     return solve_seamless_map(map.variables, system, map.shapes, {});

@@ -10,8 +10,8 @@
 namespace kinequad::test {
 namespace {
 
-void expect_fault(const std::string& text, InputFault fault,
-                  const std::vector<std::string>& parts) {
+void expect_landmarks_fault(const std::string& text, InputFault fault,
+                            const std::vector<std::string>& parts) {
     expect_input_error([&] { parse_landmarks(text, "marks.json"); }, fault, parts);
 }
 
@@ -25,20 +25,21 @@ TEST(ReadLandmarks, ReadsPairsAndStationaryVertices) {
 }
 
 TEST(ReadLandmarks, RefusesWhatIsWrong) {
-    expect_fault("", InputFault::file, {"marks.json", "no valid JSON"});
-    expect_fault("{\"pairs\": [[1,\n2", InputFault::file, {"marks.json", "line 2"});
-    expect_fault("[1]", InputFault::file, {"marks.json", "pairs"});
-    expect_fault(R"({"pairs": 3})", InputFault::file, {"\"pairs\"", "list"});
-    expect_fault(R"({"pairs": [[1, 2], [3]]})", InputFault::file, {"pairs[1]", "two"});
-    expect_fault(R"({"pairs": [[1, 2.5]]})", InputFault::file, {"pairs[0][1]"});
-    expect_fault(R"({"stationary": ["a"]})", InputFault::file, {"stationary[0]"});
-    expect_fault(R"({"pairs": [[1, -2]]})", InputFault::symmetry, {"pairs[0][1]", "-2"});
-    expect_fault(R"({"pairs": [[1, 18446744073709551615]]})", InputFault::symmetry,
-                 {"pairs[0][1]"});
-    expect_fault(R"({"pairs": [[1, 1]]})", InputFault::symmetry, {"vertex 1", "twice"});
-    expect_fault(R"({"pairs": [[1, 2]], "stationary": [2]})", InputFault::symmetry, {"vertex 2"});
+    expect_landmarks_fault("", InputFault::file, {"marks.json", "no valid JSON"});
+    expect_landmarks_fault("{\"pairs\": [[1,\n2", InputFault::file, {"marks.json", "line 2"});
+    expect_landmarks_fault("[1]", InputFault::file, {"marks.json", "pairs"});
+    expect_landmarks_fault(R"({"pairs": 3})", InputFault::file, {"\"pairs\"", "list"});
+    expect_landmarks_fault(R"({"pairs": [[1, 2], [3]]})", InputFault::file, {"pairs[1]", "two"});
+    expect_landmarks_fault(R"({"pairs": [[1, 2.5]]})", InputFault::file, {"pairs[0][1]"});
+    expect_landmarks_fault(R"({"stationary": ["a"]})", InputFault::file, {"stationary[0]"});
+    expect_landmarks_fault(R"({"pairs": [[1, -2]]})", InputFault::symmetry, {"pairs[0][1]", "-2"});
+    expect_landmarks_fault(R"({"pairs": [[1, 18446744073709551615]]})", InputFault::symmetry,
+                           {"pairs[0][1]"});
+    expect_landmarks_fault(R"({"pairs": [[1, 1]]})", InputFault::symmetry, {"vertex 1", "twice"});
+    expect_landmarks_fault(R"({"pairs": [[1, 2]], "stationary": [2]})", InputFault::symmetry,
+                           {"vertex 2"});
     const std::string deep(100000, '[');
-    expect_fault(deep, InputFault::file, {"marks.json"});
+    expect_landmarks_fault(deep, InputFault::file, {"marks.json"});
     const Landmarks landmarks = parse_landmarks(R"({"pairs": [[4, 7]]})", "marks.json");
     EXPECT_NO_THROW(require_landmarks_fit(landmarks, 8, "marks.json"));
     expect_input_error([&] { require_landmarks_fit(landmarks, 7, "marks.json"); },

@@ -45,8 +45,8 @@ std::string mdd(int points, int samples, const std::vector<float>& numbers) {
 const std::string triangle_obj = "v 9 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const std::vector<float> two_samples = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 5, 1, 2, 3, 0, 1, 0};
 
-void expect_fault(const std::string& input, InputFault fault,
-                  const std::vector<std::string>& parts) {
+void expect_sequence_fault(const std::string& input, InputFault fault,
+                           const std::vector<std::string>& parts) {
     expect_input_error(
         [&] {
             const auto source = open_sequence(input);
@@ -125,24 +125,27 @@ TEST(OpenSequence, RefusesFramesThatAreNotOfTheSequence) {
     const ScratchFolder folder;
     folder.put("0.obj", obj_frame(0));
     const std::string other = folder.put("1.obj", obj_frame(1, "f 2 3 4 1\n"));
-    expect_fault(folder.path(), InputFault::mesh, {"1.obj", "faces differ", "face 0", "0.obj"});
+    expect_sequence_fault(folder.path(), InputFault::mesh,
+                          {"1.obj", "faces differ", "face 0", "0.obj"});
     folder.put("1.obj", obj_frame(1, "f 1 2 3\nf 1 3 4\n"));
-    expect_fault(folder.path(), InputFault::mesh, {"1.obj", "faces differ", "2 against 1"});
+    expect_sequence_fault(folder.path(), InputFault::mesh,
+                          {"1.obj", "faces differ", "2 against 1"});
     folder.put("1.obj", "v 0 0 0\n" + obj_frame(1));
-    expect_fault(folder.path(), InputFault::mesh, {"1.obj", "5 vertices", "has 4"});
+    expect_sequence_fault(folder.path(), InputFault::mesh, {"1.obj", "5 vertices", "has 4"});
     folder.put("1.obj", "v 0 0 nan\nv 1 0 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4\n");
-    expect_fault(folder.path(), InputFault::mesh, {"1.obj:1:", "vertex 0"});
+    expect_sequence_fault(folder.path(), InputFault::mesh, {"1.obj:1:", "vertex 0"});
     folder.put("1.obj", "");
-    expect_fault(folder.path(), InputFault::file, {"1.obj", "empty"});
+    expect_sequence_fault(folder.path(), InputFault::file, {"1.obj", "empty"});
     folder.put("1.ply", "ply\n");
-    expect_fault(folder.path(), InputFault::file, {"both .obj and .ply", "name one kind"});
-    expect_fault(folder.path() + "/*.off", InputFault::file, {"*.off", "matches no file"});
-    expect_fault(folder.path() + "/none.obj", InputFault::file, {"none.obj", "does not exist"});
+    expect_sequence_fault(folder.path(), InputFault::file, {"both .obj and .ply", "name one kind"});
+    expect_sequence_fault(folder.path() + "/*.off", InputFault::file, {"*.off", "matches no file"});
+    expect_sequence_fault(folder.path() + "/none.obj", InputFault::file,
+                          {"none.obj", "does not exist"});
     const ScratchFolder empty;
-    expect_fault(empty.path(), InputFault::file, {empty.path(), "OBJ, PLY or OFF"});
+    expect_sequence_fault(empty.path(), InputFault::file, {empty.path(), "OBJ, PLY or OFF"});
     empty.put("a.stl", "solid");
     empty.put("b.stl", "solid");
-    expect_fault(empty.path(), InputFault::file, {"STL"});
+    expect_sequence_fault(empty.path(), InputFault::file, {"STL"});
 }
 
 TEST(OpenSequence, TakesTheSamplesOfACacheBesideAnObj) {
@@ -175,7 +178,7 @@ TEST(OpenSequence, RefusesCachesThatDoNotFit) {
     const auto refuse = [&](const std::string& name, const std::string& bytes, InputFault fault,
                             const std::vector<std::string>& parts) {
         const std::string cache = folder.put(name, bytes);
-        expect_fault(cache, fault, parts);
+        expect_sequence_fault(cache, fault, parts);
         std::filesystem::remove(cache);
     };
     const std::string good = pc2(3, 2, two_samples);
@@ -209,11 +212,12 @@ TEST(OpenSequence, AsksWhichSequenceIsMeant) {
     folder.put("a.obj", triangle_obj);
     folder.put("a.pc2", pc2(3, 2, two_samples));
     folder.put("a.mdd", mdd(3, 2, two_samples));
-    expect_fault((folder / "a.obj").string(), InputFault::file, {"a.pc2", "a.mdd", "name the one"});
-    expect_fault(folder.path(), InputFault::file, {"among other sequences"});
+    expect_sequence_fault((folder / "a.obj").string(), InputFault::file,
+                          {"a.pc2", "a.mdd", "name the one"});
+    expect_sequence_fault(folder.path(), InputFault::file, {"among other sequences"});
     std::filesystem::remove(folder / "a.mdd");
     folder.put("b.obj", triangle_obj);
-    expect_fault(folder.path(), InputFault::file, {"a.pc2", "among other sequences"});
+    expect_sequence_fault(folder.path(), InputFault::file, {"a.pc2", "among other sequences"});
     EXPECT_EQ(open_sequence((folder / "b.obj").string())->frame_count(), 1);
 }
 

@@ -8,8 +8,8 @@ namespace {
 
 PolygonMesh parse(const std::string& text) { return parse_obj(text, "file.obj"); }
 
-void expect_fault(const std::string& text, InputFault fault,
-                  const std::vector<std::string>& parts) {
+void expect_obj_fault(const std::string& text, InputFault fault,
+                      const std::vector<std::string>& parts) {
     expect_input_error([&] { parse(text); }, fault, parts);
 }
 
@@ -67,28 +67,31 @@ TEST(ReadObj, ReadsTinyNumbersAsTheNearestDouble) {
 }
 
 TEST(ReadObj, RefusesWhatIsNoMeshFile) {
-    expect_fault("\x7f\x45LF binary\n", InputFault::mesh, {"file.obj", "no vertices"});
-    expect_fault(triangle, InputFault::mesh, {"file.obj", "no faces"});
-    expect_fault("v 0 0 0\nv 1 x 0\n", InputFault::file, {"file.obj:2:", "coordinate", "\"x\""});
-    expect_fault("v 0 0\nf 1 2 3\n", InputFault::file, {"file.obj:1:", "coordinate"});
-    expect_fault("v 0 0 0a\n", InputFault::file, {"file.obj:1:", "\"0a\""});
-    expect_fault(triangle + "f 1 2\n", InputFault::file, {"file.obj:4:", "face 0", "2 corners"});
-    expect_fault(triangle + "f\n", InputFault::file, {"file.obj:4:", "0 corners"});
-    expect_fault(triangle + "f 1 2 3x\n", InputFault::file, {"file.obj:4:", "corner"});
-    expect_fault(triangle + "f 1 2 ?\n", InputFault::file, {"file.obj:4:", "vertex index"});
-    expect_fault(triangle + "f 1 2 99999999999999999999\n", InputFault::file, {"file.obj:4:"});
+    expect_obj_fault("\x7f\x45LF binary\n", InputFault::mesh, {"file.obj", "no vertices"});
+    expect_obj_fault(triangle, InputFault::mesh, {"file.obj", "no faces"});
+    expect_obj_fault("v 0 0 0\nv 1 x 0\n", InputFault::file,
+                     {"file.obj:2:", "coordinate", "\"x\""});
+    expect_obj_fault("v 0 0\nf 1 2 3\n", InputFault::file, {"file.obj:1:", "coordinate"});
+    expect_obj_fault("v 0 0 0a\n", InputFault::file, {"file.obj:1:", "\"0a\""});
+    expect_obj_fault(triangle + "f 1 2\n", InputFault::file,
+                     {"file.obj:4:", "face 0", "2 corners"});
+    expect_obj_fault(triangle + "f\n", InputFault::file, {"file.obj:4:", "0 corners"});
+    expect_obj_fault(triangle + "f 1 2 3x\n", InputFault::file, {"file.obj:4:", "corner"});
+    expect_obj_fault(triangle + "f 1 2 ?\n", InputFault::file, {"file.obj:4:", "vertex index"});
+    expect_obj_fault(triangle + "f 1 2 99999999999999999999\n", InputFault::file, {"file.obj:4:"});
 }
 
 TEST(ReadObj, RefusesWhatIsNoValidMesh) {
-    expect_fault("v 0 0 0\nv nan 0 0\n", InputFault::mesh,
-                 {"file.obj:2:", "vertex 1", "not finite"});
-    expect_fault("v 0 -inf 0\n", InputFault::mesh, {"file.obj:1:", "vertex 0", "not finite"});
-    expect_fault("v 0 1e999 0\n", InputFault::mesh, {"file.obj:1:", "not finite"});
-    expect_fault(triangle + "\nf 1 2 4\n", InputFault::mesh,
-                 {"file.obj:5:", "vertex 4", "3 vertices"});
-    expect_fault(triangle + "f 0 1 2\n", InputFault::mesh, {"file.obj:4:", "vertex 0"});
-    expect_fault(triangle + "f -1 -2 -4\n", InputFault::mesh, {"file.obj:4:", "vertex -4"});
-    expect_fault(triangle + "f 1 2 4294967297\n", InputFault::mesh, {"file.obj:4:", "4294967297"});
+    expect_obj_fault("v 0 0 0\nv nan 0 0\n", InputFault::mesh,
+                     {"file.obj:2:", "vertex 1", "not finite"});
+    expect_obj_fault("v 0 -inf 0\n", InputFault::mesh, {"file.obj:1:", "vertex 0", "not finite"});
+    expect_obj_fault("v 0 1e999 0\n", InputFault::mesh, {"file.obj:1:", "not finite"});
+    expect_obj_fault(triangle + "\nf 1 2 4\n", InputFault::mesh,
+                     {"file.obj:5:", "vertex 4", "3 vertices"});
+    expect_obj_fault(triangle + "f 0 1 2\n", InputFault::mesh, {"file.obj:4:", "vertex 0"});
+    expect_obj_fault(triangle + "f -1 -2 -4\n", InputFault::mesh, {"file.obj:4:", "vertex -4"});
+    expect_obj_fault(triangle + "f 1 2 4294967297\n", InputFault::mesh,
+                     {"file.obj:4:", "4294967297"});
 }
 
 TEST(ReadObjPositions, AgreesWithTheWholeReaderOnAFrameOfTheSamePattern) {

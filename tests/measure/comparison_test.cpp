@@ -77,14 +77,14 @@ TEST(Comparison, CountsFramesAgainstTheBaseline) {
 TEST(Comparison, JsonHoldsExactlyTheKeysOfItsFormat) {
     const nlohmann::ordered_json json = to_json(two_methods());
     EXPECT_EQ(json.size(), 2U);
-    EXPECT_EQ(json["frames"], (nlohmann::json{0, 10, 20}));
+    EXPECT_EQ(json["frames"], (nlohmann::ordered_json{0, 10, 20}));
     std::vector<std::string> keys;
     for (const auto& [key, value] : json["methods"][0].items()) keys.push_back(key);
     EXPECT_EQ(keys, (std::vector<std::string>{
                         "name", "vertices", "quads", "singular_vertices", "angle_deviation_mean",
                         "hausdorff_percent", "mean_distance_percent", "scaled_jacobian_min",
                         "stretch_alignment_degrees", "symmetry_error_degrees", "cpu_seconds"}));
-    EXPECT_EQ(json["methods"][0]["angle_deviation_mean"], (nlohmann::json{8.0, 9.0, 10.0}));
+    EXPECT_EQ(json["methods"][0]["angle_deviation_mean"], (nlohmann::ordered_json{8.0, 9.0, 10.0}));
     EXPECT_EQ(json["methods"][0]["cpu_seconds"], 2.5);
     EXPECT_EQ(json["methods"][1]["name"], "ours, \"new\"");
     EXPECT_TRUE(json["methods"][1]["symmetry_error_degrees"].is_null());

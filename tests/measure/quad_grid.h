@@ -1,8 +1,13 @@
 #pragma once
 
+#include <numbers>
+
 #include "kinequad/core/types.h"
 
 namespace kinequad::test {
+
+/// One degree in radians.
+inline constexpr double degree = std::numbers::pi / 180;
 
 /// Unit square in z = 0 as `n` x `n` quads.
 struct QuadGrid {

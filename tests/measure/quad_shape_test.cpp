@@ -12,7 +12,7 @@
 namespace kinequad {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+using test::degree;
 
 QuadShapeMetrics measure_one(const std::vector<Vector3>& corners) {
     Positions V(4, 3);

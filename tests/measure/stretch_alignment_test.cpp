@@ -12,7 +12,7 @@
 namespace kinequad {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+using test::degree;
 
 Eigen::Matrix3d turn(double angle) {
     Eigen::Matrix3d R;

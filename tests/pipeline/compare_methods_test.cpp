@@ -9,31 +9,14 @@
 #include "kinequad/io/memory_sequence.h"
 #include "kinequad/pipeline/make_report.h"
 #include "kinequad/transfer/transfer.h"
+#include "stretched_torus.h"
 #include "support/shapes.h"
 
 namespace kinequad {
 namespace {
 
-/// A torus, its own mirror image in many planes, that is stretched along x more and more.
-MemorySequence stretched_torus(int frame_count) {
-    const TriangleMesh mesh = test::torus(48, 24);
-    std::vector<Positions> frames;
-    for (int j = 0; j < frame_count; ++j) {
-        Positions V = mesh.V;
-        V.col(0) *= 1 + 0.2 * j;
-        frames.push_back(V);
-    }
-    return {mesh.F, frames, std::nullopt, "some/torus.obj"};
-}
-
-Options options_for(int vertices) {
-    Options options;
-    options.vertices = vertices;
-    return options;
-}
-
 TEST(ComparisonRecipes, AreTheFourOfTheComparison) {
-    Options base = options_for(700);
+    Options base = test::options_with(700);
     base.reference = 2;
     base.relax_rounds = 5;
     const std::vector<ComparedRecipe> recipes = comparison_recipes(base, false);
@@ -52,9 +35,9 @@ TEST(ComparisonRecipes, AreTheFourOfTheComparison) {
 }
 
 TEST(CompareMethods, AForeignMeshIsMeasuredAsOurs) {
-    const MemorySequence source = stretched_torus(3);
+    const MemorySequence source = test::stretched_torus(3, 0.2, "some/torus.obj");
     ComparisonOptions options;
-    options.recipes = {comparison_recipes(options_for(500), false).back()};
+    options.recipes = {comparison_recipes(test::options_with(500), false).back()};
     const ComparisonResult ours = compare_methods(source, options, {});
     ASSERT_EQ(ours.comparison.methods.size(), 1U);
     EXPECT_EQ(ours.comparison.baseline, -1);
@@ -82,7 +65,7 @@ TEST(CompareMethods, AForeignMeshIsMeasuredAsOurs) {
 }
 
 TEST(CompareMethods, WarnsOfAForeignMeshInAnotherPose) {
-    const MemorySequence source = stretched_torus(3);
+    const MemorySequence source = test::stretched_torus(3, 0.2, "some/torus.obj");
     ComparisonOptions options;
     const TriangleMesh torus = test::torus(12, 8);
     Positions elsewhere = torus.V;
@@ -99,17 +82,17 @@ TEST(CompareMethods, WarnsOfAForeignMeshInAnotherPose) {
 }
 
 TEST(CompareMethods, RefusesANameThatOccursTwice) {
-    const MemorySequence source = stretched_torus(1);
+    const MemorySequence source = test::stretched_torus(1, 0.2, "some/torus.obj");
     ComparisonOptions options;
-    options.recipes = comparison_recipes(options_for(500), false);
+    options.recipes = comparison_recipes(test::options_with(500), false);
     options.foreign = {{"paper", {}, {}}};
     EXPECT_THROW(compare_methods(source, options, {}), InputError);
 }
 
 TEST(CompareMethods, StopsWhenAsked) {
-    const MemorySequence source = stretched_torus(2);
+    const MemorySequence source = test::stretched_torus(2, 0.2, "some/torus.obj");
     ComparisonOptions options;
-    options.recipes = comparison_recipes(options_for(500), false);
+    options.recipes = comparison_recipes(test::options_with(500), false);
     const std::atomic<bool> cancel = true;
     Context context;
     context.cancel = &cancel;
@@ -117,9 +100,9 @@ TEST(CompareMethods, StopsWhenAsked) {
 }
 
 TEST(MakeReport, ShowsMethodsTheirOptionsAndPictures) {
-    const MemorySequence source = stretched_torus(3);
+    const MemorySequence source = test::stretched_torus(3, 0.2, "some/torus.obj");
     ComparisonOptions options;
-    options.recipes = comparison_recipes(options_for(500), false);
+    options.recipes = comparison_recipes(test::options_with(500), false);
     options.recipes.erase(options.recipes.begin() + 1, options.recipes.begin() + 3);
     PictureOptions pictures;
     pictures.frames = {1};

@@ -16,12 +16,6 @@ using test::Outcome;
 using test::run_program;
 using test::ScratchFolder;
 
-void make_biped(const ScratchFolder& scratch) {
-    const Outcome outcome =
-        run_program(scratch, "synth biped -o biped --triangles 3000 --frames 4 -q");
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-}
-
 TEST(CompareProgram, LeavesTableFramesAndReport) {
     const ScratchFolder scratch;
     make_biped(scratch);

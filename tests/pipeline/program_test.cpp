@@ -34,12 +34,6 @@ void expect_refused(const ScratchFolder& scratch, const std::string& arguments, 
 }
 
 /// Makes the sequence `biped` in the scratch folder: a small creature in a few frames.
-void make_biped(const ScratchFolder& scratch) {
-    const Outcome outcome =
-        run_program(scratch, "synth biped -o biped --triangles 3000 --frames 4 -q");
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-}
-
 std::vector<std::string> names_in(const std::filesystem::path& folder) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {

@@ -11,32 +11,15 @@
 #include "kinequad/io/memory_sequence.h"
 #include "kinequad/synth/synthesize_creature.h"
 #include "kinequad/transfer/transfer.h"
+#include "stretched_torus.h"
 #include "support/shapes.h"
 
 namespace kinequad {
 namespace {
 
-/// A torus that is stretched along x more and more.
-MemorySequence stretched_torus(int frame_count) {
-    const TriangleMesh mesh = test::torus(48, 24);
-    std::vector<Positions> frames;
-    for (int j = 0; j < frame_count; ++j) {
-        Positions V = mesh.V;
-        V.col(0) *= 1 + 0.1 * j;
-        frames.push_back(V);
-    }
-    return {mesh.F, frames};
-}
-
-Options options_for(int vertices) {
-    Options options;
-    options.vertices = vertices;
-    return options;
-}
-
 TEST(Quadrangulate, TorusStaysATorus) {
-    const MemorySequence source = stretched_torus(3);
-    const Result result = quadrangulate(source, {}, options_for(600), Context{});
+    const MemorySequence source = test::stretched_torus(3, 0.1, "torus");
+    const Result result = quadrangulate(source, {}, test::options_with(600), Context{});
     const QuadMeshReport report = verify_quad_mesh(result.quads, result.topology);
     EXPECT_TRUE(report.valid());
     EXPECT_EQ(report.euler_characteristic, 0);
@@ -45,10 +28,10 @@ TEST(Quadrangulate, TorusStaysATorus) {
 }
 
 TEST(Quadrangulate, StagesComeInOrderAndAreTimed) {
-    const MemorySequence source = stretched_torus(2);
+    const MemorySequence source = test::stretched_torus(2, 0.1, "torus");
     std::vector<std::string> seen;
     const Result result =
-        quadrangulate(source, {}, options_for(400), Context{},
+        quadrangulate(source, {}, test::options_with(400), Context{},
                       [&](std::string_view stage, const Result&) { seen.emplace_back(stage); });
     std::vector<std::string> timed;
     for (const StageTime& time : result.times) timed.push_back(time.stage);
@@ -57,9 +40,9 @@ TEST(Quadrangulate, StagesComeInOrderAndAreTimed) {
 }
 
 TEST(Quadrangulate, WithoutAnimationOtherFramesDoNotMatter) {
-    Options options = options_for(400);
+    Options options = test::options_with(400);
     options.alpha = 0;
-    const MemorySequence moving = stretched_torus(5);
+    const MemorySequence moving = test::stretched_torus(5, 0.1, "torus");
     const MemorySequence still(moving.triangles(), {moving.read_frame(0)});
     const Result a = quadrangulate(moving, {}, options, Context{});
     const Result b = quadrangulate(still, {}, options, Context{});
@@ -68,12 +51,12 @@ TEST(Quadrangulate, WithoutAnimationOtherFramesDoNotMatter) {
 }
 
 TEST(Quadrangulate, MeanMetricDoesNotDependOnTheOrderOfTheFrames) {
-    const MemorySequence forward = stretched_torus(4);
+    const MemorySequence forward = test::stretched_torus(4, 0.1, "torus");
     std::vector<Positions> frames;
     for (int j = 3; j >= 0; --j) frames.push_back(forward.read_frame(j));
     const MemorySequence backward(forward.triangles(), frames);
-    const Result a = quadrangulate(forward, {}, options_for(400), Context{});
-    const Result b = quadrangulate(backward, {}, options_for(400), Context{});
+    const Result a = quadrangulate(forward, {}, test::options_with(400), Context{});
+    const Result b = quadrangulate(backward, {}, test::options_with(400), Context{});
     EXPECT_TRUE(a.domain.metric.edge_length.isApprox(b.domain.metric.edge_length, 1e-12));
     EXPECT_EQ(a.field.index, b.field.index);
 }
@@ -83,7 +66,7 @@ TEST(Quadrangulate, NamesTheInputThatIsNoManifold) {
     F << 0, 1, 2, 1, 0, 3, 0, 1, 4;
     const MemorySequence source(F, {Positions::Random(5, 3)}, {}, "fin.obj");
     try {
-        quadrangulate(source, {}, options_for(100), Context{});
+        quadrangulate(source, {}, test::options_with(100), Context{});
         FAIL() << "accepted";
     } catch (const InputError& error) {
         EXPECT_EQ(error.code(), ExitCode::invalid_mesh);
@@ -96,7 +79,9 @@ TEST(Quadrangulate, StopsWhenAsked) {
     std::atomic<bool> cancel{true};
     Context context;
     context.cancel = &cancel;
-    EXPECT_THROW(quadrangulate(stretched_torus(2), {}, options_for(400), context), Cancelled);
+    EXPECT_THROW(
+        quadrangulate(test::stretched_torus(2, 0.1, "torus"), {}, test::options_with(400), context),
+        Cancelled);
 }
 
 /// Quads of a cube of 12 triangles, edge length 2, with some of its edges as features.
@@ -106,7 +91,7 @@ Result quads_of_cube(const Options& options) {
 }
 
 TEST(Quadrangulate, SharpEdgesOfACubeAreKept) {
-    Options options = options_for(300);
+    Options options = test::options_with(300);
     options.feature_angle = 40;
     const Result result = quads_of_cube(options);
     const TriangleMesh mesh = test::cube(1);
@@ -136,7 +121,7 @@ TEST(Quadrangulate, FeaturesCanBeNamed) {
         (mesh.V.rowwise() - Eigen::RowVector3d(x, y, z)).rowwise().squaredNorm().minCoeff(&v);
         return static_cast<int>(v);
     };
-    Options options = options_for(200);
+    Options options = test::options_with(200);
     options.features = {{corner(-1, -1, -1), corner(1, -1, -1)}};
     const Result result = quads_of_cube(options);
     EXPECT_FALSE(result.map.feature_edges.empty());
@@ -150,7 +135,7 @@ TEST(Quadrangulate, ASingleTriangleIsRefusedWithSymmetry) {
     F << 0, 1, 2;
     Positions V(3, 3);
     V << -1, 0, 0, 1, 0, 0, 0, 1.5, 0;
-    Options options = options_for(100);
+    Options options = test::options_with(100);
     options.symmetry = SymmetryMode::field;
     try {
         quadrangulate(MemorySequence(F, {V}), {}, options, Context{});

@@ -34,6 +34,12 @@ Outcome run_program(const ScratchFolder& scratch, const std::string& arguments) 
     return outcome;
 }
 
+void make_biped(const ScratchFolder& scratch) {
+    const Outcome outcome =
+        run_program(scratch, "synth biped -o biped --triangles 3000 --frames 4 -q");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+}
+
 std::string content_of(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     EXPECT_TRUE(file) << path << " cannot be read";

@@ -30,6 +30,9 @@ private:
 /// Runs `kinequad ARGUMENTS`, the arguments as a shell reads them, and waits for its end.
 Outcome run_program(const ScratchFolder& scratch, const std::string& arguments);
 
+/// Makes the frames of a walking creature in the folder `biped`.
+void make_biped(const ScratchFolder& scratch);
+
 /// The content of a file; fails the test where it cannot be read.
 std::string content_of(const std::filesystem::path& path);
 

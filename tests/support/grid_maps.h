@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "kinequad/core/index.h"
 #include "kinequad/gridmap/grid_map.h"
 #include "kinequad/mesh/triangle_mesh.h"
 
@@ -18,8 +19,6 @@ namespace kinequad::test {
 using CornerCoordinates = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 namespace grid_maps {
-
-inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Fixed-point value of a coordinate; whole where it is so but for rounding errors.
 inline std::int64_t fixed_point(double x) {
@@ -224,9 +223,9 @@ inline std::vector<GridMap::Transition> random_charts(int triangles, int cells,
 /// Whether all triangles around a vertex have positive area in the map.
 inline bool has_positive_star(const GridMap& map, int vertex) {
     for (const int h : outgoing_half_edges(map.topology, vertex)) {
-        const auto from = map.corner[grid_maps::at(h)];
-        const auto b = map.corner[grid_maps::at(Topology::next(h))];
-        const auto c = map.corner[grid_maps::at(Topology::previous(h))];
+        const auto from = map.corner[at(h)];
+        const auto b = map.corner[at(Topology::next(h))];
+        const auto c = map.corner[at(Topology::previous(h))];
         const __int128 area = static_cast<__int128>(b.u - from.u) * (c.v - from.v) -
                               static_cast<__int128>(b.v - from.v) * (c.u - from.u);
         if (area <= 0) return false;

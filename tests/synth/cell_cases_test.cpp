@@ -26,7 +26,7 @@ TEST(CellCase, EveryPieceIsACycleOfAtLeastThreeEdges) {
     for (unsigned mask = 0; mask < 256; ++mask) {
         const CellCase& at = cell_case(mask);
         std::array<int, 4> edges{};
-        for (const signed char piece : at.piece) {
+        for (const int piece : at.piece) {
             if (piece >= 0) ++edges[static_cast<std::size_t>(piece)];
         }
         for (int piece = 0; piece < at.piece_count; ++piece) {

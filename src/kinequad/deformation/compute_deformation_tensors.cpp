@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 #include "kinequad/deformation/frame_curvature.h"
 #include "kinequad/deformation/triangle_strain.h"
@@ -13,9 +14,7 @@
 namespace kinequad {
 namespace {
 
-constexpr std::size_t block = 2048;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr std::size_t strain_block = 2048;
 
 void check(const DeformationOptions& options, int frame_count) {
     require(options.edge_length >= 0 && std::isfinite(options.edge_length), InputFault::usage,
@@ -65,7 +64,7 @@ public:
     }
 
     void add_frame(const Positions& V, double largest_stretch) {
-        parallel_for(rest_.size(), block, context_, [&](std::size_t begin, std::size_t end) {
+        parallel_for(rest_.size(), strain_block, context_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t t = begin; t < end; ++t) {
                 const TriangleStrain strain = strain_at(V, t);
                 if (!strain.valid()) continue;

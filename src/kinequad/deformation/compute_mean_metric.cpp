@@ -24,8 +24,8 @@ IntrinsicMetric compute_mean_metric(const FrameSource& frames, const Topology& t
         const Positions V = frames.read_frame(frame);
         parallel_for(edge_count, block, context, [&](std::size_t begin, std::size_t end) {
             for (std::size_t e = begin; e < end; ++e) {
-                const double* a = V.data() + 3 * ends[2 * e];
-                const double* b = V.data() + 3 * ends[2 * e + 1];
+                const double* a = V.data() + std::ptrdiff_t{3} * ends[2 * e];
+                const double* b = V.data() + std::ptrdiff_t{3} * ends[2 * e + 1];
                 const double x = b[0] - a[0];
                 const double y = b[1] - a[1];
                 const double z = b[2] - a[2];

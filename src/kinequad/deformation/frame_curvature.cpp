@@ -3,15 +3,14 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 
 namespace kinequad {
 namespace {
 
-constexpr std::size_t block = 2048;
+constexpr std::size_t curvature_block = 2048;
 constexpr int averaging_rounds = 4;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Vector3 point(const Positions& V, int v) { return V.row(v).transpose(); }
 
@@ -19,7 +18,7 @@ Vector3 point(const Positions& V, int v) { return V.row(v).transpose(); }
 std::vector<Vector3> triangle_normals(const Topology& topology, const Positions& V,
                                       const Context& context) {
     std::vector<Vector3> normals(at(topology.triangle_count));
-    parallel_for(normals.size(), block, context, [&](std::size_t begin, std::size_t end) {
+    parallel_for(normals.size(), curvature_block, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
             const Vector3 p = point(V, topology.origin[3 * t]);
             normals[t] = (point(V, topology.origin[3 * t + 1]) - p)
@@ -33,7 +32,7 @@ std::vector<Vector3> triangle_normals(const Topology& topology, const Positions&
 std::vector<double> edge_bends(const Topology& topology, const Positions& V,
                                const std::vector<Vector3>& normals, const Context& context) {
     std::vector<double> bends(at(topology.edge_count), 0);
-    parallel_for(bends.size(), block, context, [&](std::size_t begin, std::size_t end) {
+    parallel_for(bends.size(), curvature_block, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e) {
             const int h = topology.edge_half_edge[e];
             const int other = topology.twin[at(h)];
@@ -77,7 +76,7 @@ void FrameCurvature::accumulate(const Positions& V, double edge_length, const Co
     const std::vector<double> bends = edge_bends(topology_, V, normals, context);
     std::vector<Bend> bend(count);
     std::vector<Bend> averaged(count);
-    parallel_for(count, block, context, [&](std::size_t begin, std::size_t end) {
+    parallel_for(count, curvature_block, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
             bend[t].area = 0.5 * normals[t].norm();
             for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) {
@@ -86,7 +85,7 @@ void FrameCurvature::accumulate(const Positions& V, double edge_length, const Co
         }
     });
     for (int round = 0; round < averaging_rounds; ++round) {
-        parallel_for(count, block, context, [&](std::size_t begin, std::size_t end) {
+        parallel_for(count, curvature_block, context, [&](std::size_t begin, std::size_t end) {
             for (std::size_t t = begin; t < end; ++t) {
                 double re = bend[t].q.real();
                 double im = bend[t].q.imag();
@@ -106,7 +105,7 @@ void FrameCurvature::accumulate(const Positions& V, double edge_length, const Co
         });
         std::swap(bend, averaged);
     }
-    parallel_for(count, block, context, [&](std::size_t begin, std::size_t end) {
+    parallel_for(count, curvature_block, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
             const double re = bend[t].q.real();
             const double im = bend[t].q.imag();

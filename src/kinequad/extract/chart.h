@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kinequad/core/index.h"
 #include "kinequad/gridmap/grid_map.h"
 
 /// Exact geometry in the charts of an integer-grid map, shared by the files of this stage.
@@ -8,8 +9,6 @@ namespace kinequad::extraction {
 using Coordinate = GridMap::Coordinate;
 /// Wide enough for the product of two differences of coordinates that pass `require_extractable`.
 using Wide = __int128;
-
-inline std::size_t to_index(int i) { return static_cast<std::size_t>(i); }
 
 inline Coordinate minus(Coordinate a, Coordinate b) { return {a.u - b.u, a.v - b.v}; }
 
@@ -23,7 +22,7 @@ inline bool is_whole(Coordinate z) {
 }
 
 /// Coordinates of the corner that half-edge `h` starts from, in the chart of its triangle.
-inline Coordinate corner_of(const GridMap& map, int h) { return map.corner[to_index(h)]; }
+inline Coordinate corner_of(const GridMap& map, int h) { return map.corner[at(h)]; }
 
 /// `z` seen from `from` when looking along direction i^`direction`: u is ahead, v to the left.
 inline Coordinate seen_from(Coordinate z, Coordinate from, int direction) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/extract/integer_points.h"
 #include "kinequad/extract/require_extractable.h"
 #include "kinequad/extract/split_parallel_edges.h"
@@ -26,12 +27,12 @@ std::vector<int> link_ports(const GridMap& map, const IntegerPoints& points,
                                     static_cast<double>(p) / static_cast<double>(opposite.size()));
         }
         const int arrived = trace_port(map, points, static_cast<int>(p), step_limit);
-        if (opposite[to_index(arrived)] >= 0 || arrived == static_cast<int>(p)) {
+        if (opposite[at(arrived)] >= 0 || arrived == static_cast<int>(p)) {
             throw VerificationError(fmt::format("two quad edges meet in one at vertex {}",
-                                                points.port[to_index(arrived)].point));
+                                                points.port[at(arrived)].point));
         }
         opposite[p] = arrived;
-        opposite[to_index(arrived)] = static_cast<int>(p);
+        opposite[at(arrived)] = static_cast<int>(p);
     }
     return opposite;
 }
@@ -39,13 +40,13 @@ std::vector<int> link_ports(const GridMap& map, const IntegerPoints& points,
 /// The port that follows `port` around the face on its left, -1 where the surface ends on its left.
 int next_in_face(const GridMap& map, const IntegerPoints& points, const std::vector<int>& opposite,
                  int port) {
-    const int back = opposite[to_index(port)];
-    const int point = points.port[to_index(back)].point;
-    const int first = points.point[to_index(point)].first_port;
+    const int back = opposite[at(port)];
+    const int point = points.port[at(back)].point;
+    const int first = points.point[at(point)].first_port;
     if (back != first) return back - 1;
-    const int half_edge = points.point[to_index(point)].half_edge;
-    const bool on_boundary = points.point[to_index(point)].place != Place::triangle &&
-                             map.topology.twin[to_index(half_edge)] < 0;
+    const int half_edge = points.point[at(point)].half_edge;
+    const bool on_boundary =
+        points.point[at(point)].place != Place::triangle && map.topology.twin[at(half_edge)] < 0;
     return on_boundary ? -1 : first + points.port_count_of(point) - 1;
 }
 
@@ -60,8 +61,8 @@ Quads assemble_faces(const GridMap& map, const IntegerPoints& points,
         int port = start;
         int sides = 0;
         do {
-            is_used[to_index(port)] = true;
-            corners.push_back(points.port[to_index(port)].point);
+            is_used[at(port)] = true;
+            corners.push_back(points.port[at(port)].point);
             port = next_in_face(map, points, opposite, port);
             ++sides;
         } while (port >= 0 && port != start && sides < 4);
@@ -102,7 +103,7 @@ SurfacePoint locate(const GridMap& map, const IntegerPoint& point) {
         weights = (at_a * row(h) + at_b * row(after) + at_c * row(before)) / (at_a + at_b + at_c);
     }
     weights = weights.cwiseMax(0.0);
-    return {map.mesh.parent[to_index(t)], weights / weights.sum()};
+    return {map.mesh.parent[at(t)], weights / weights.sum()};
 }
 
 /// The cells of a map, every vertex with the number of its odd coordinates.
@@ -115,11 +116,11 @@ Cells extract_cells(const GridMap& map, const Context& context) {
     const std::vector<int> opposite = link_ports(map, points, step_limit, context);
     Cells cells;
     cells.mesh.Q = assemble_faces(map, points, opposite);
-    cells.mesh.vertex.reserve(to_index(points.count()));
+    cells.mesh.vertex.reserve(at(points.count()));
     cells.edge_count = points.port.size() / 2;
-    cells.odd_coordinates.reserve(to_index(points.count()));
+    cells.odd_coordinates.reserve(at(points.count()));
     for (int p = 0; p < points.count(); ++p) {
-        const IntegerPoint& point = points.point[to_index(p)];
+        const IntegerPoint& point = points.point[at(p)];
         cells.mesh.vertex.push_back(locate(map, point));
         const auto is_odd = [](std::int64_t x) { return ((x >> GridMap::fraction_bits) & 1) != 0; };
         cells.odd_coordinates.push_back(

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 
 namespace kinequad::extraction {
 namespace {
@@ -92,14 +93,14 @@ std::vector<Coordinate> points_inside(const GridMap& map, int t) {
 class Finder {
 public:
     explicit Finder(const GridMap& map) : map_(map) {
-        points_.at_vertex.assign(to_index(map.topology.vertex_count), -1);
-        points_.on_edge.resize(to_index(map.topology.edge_count));
-        points_.in_triangle.resize(to_index(map.topology.triangle_count));
+        points_.at_vertex.assign(at(map.topology.vertex_count), -1);
+        points_.on_edge.resize(at(map.topology.edge_count));
+        points_.in_triangle.resize(at(map.topology.triangle_count));
     }
 
     IntegerPoints run() {
         for (int t = 0; t < map_.topology.triangle_count; ++t) {
-            for (int h = 3 * t; h < 3 * t + 3; ++h) add_vertex(map_.topology.origin[to_index(h)]);
+            for (int h = 3 * t; h < 3 * t + 3; ++h) add_vertex(map_.topology.origin[at(h)]);
             for (int h = 3 * t; h < 3 * t + 3; ++h) {
                 if (owner_of(h) == h) add_edge(h);
             }
@@ -111,20 +112,20 @@ public:
 
 private:
     int owner_of(int h) const {
-        return map_.topology.edge_half_edge[to_index(map_.topology.edge[to_index(h)])];
+        return map_.topology.edge_half_edge[at(map_.topology.edge[at(h)])];
     }
 
-    int add_point(Place place, int half_edge, Coordinate at) {
-        points_.point.push_back({place, half_edge, at, static_cast<int>(points_.port.size())});
+    int add_point(Place place, int half_edge, Coordinate where) {
+        points_.point.push_back({place, half_edge, where, static_cast<int>(points_.port.size())});
         return static_cast<int>(points_.point.size()) - 1;
     }
 
     void add_vertex(int v) {
-        int& point = points_.at_vertex[to_index(v)];
-        const int start = map_.topology.vertex_half_edge[to_index(v)];
-        const Coordinate at = corner_of(map_, start);
-        if (point >= 0 || !is_whole(at)) return;
-        point = add_point(Place::vertex, start, at);
+        int& point = points_.at_vertex[at(v)];
+        const int start = map_.topology.vertex_half_edge[at(v)];
+        const Coordinate where = corner_of(map_, start);
+        if (point >= 0 || !is_whole(where)) return;
+        point = add_point(Place::vertex, start, where);
         int h = start;
         do {
             add_sector(point, h);
@@ -136,13 +137,13 @@ private:
     /// it has at most two, and the last side counts only where no other corner follows.
     void add_sector(int point, int h) {
         std::array<bool, 4> holds{};
-        for (int k = 0; k < 4; ++k) holds[to_index(k)] = is_in_sector(view_corner(map_, h, k));
+        for (int k = 0; k < 4; ++k) holds[at(k)] = is_in_sector(view_corner(map_, h, k));
         for (int k = 0; k < 4; ++k) {
-            if (!holds[to_index(k)] || holds[to_index((k + 3) % 4)]) continue;
+            if (!holds[at(k)] || holds[at((k + 3) % 4)]) continue;
             points_.port.push_back({point, h, k});
-            if (holds[to_index((k + 1) % 4)]) points_.port.push_back({point, h, (k + 1) % 4});
+            if (holds[at((k + 1) % 4)]) points_.port.push_back({point, h, (k + 1) % 4});
         }
-        if (map_.topology.twin[to_index(Topology::previous(h))] >= 0) return;
+        if (map_.topology.twin[at(Topology::previous(h))] >= 0) return;
         for (int k = 0; k < 4; ++k) {
             if (is_along_last_side(view_corner(map_, h, k))) points_.port.push_back({point, h, k});
         }
@@ -151,15 +152,15 @@ private:
     void add_edge(int h) {
         const Coordinate from = corner_of(map_, h);
         const Coordinate to = corner_of(map_, Topology::next(h));
-        PointRange& range = points_.on_edge[to_index(map_.topology.edge[to_index(h)])];
+        PointRange& range = points_.on_edge[at(map_.topology.edge[at(h)])];
         range.begin = static_cast<int>(points_.point.size());
-        const bool on_boundary = map_.topology.twin[to_index(h)] < 0;
+        const bool on_boundary = map_.topology.twin[at(h)] < 0;
         int first = 0;
         if (on_boundary) {
             while (!is_along_first_side(view_corner(map_, h, first))) ++first;
         }
-        for (const Coordinate& at : points_between(from, to)) {
-            const int point = add_point(Place::edge, h, at);
+        for (const Coordinate& where : points_between(from, to)) {
+            const int point = add_point(Place::edge, h, where);
             for (int k = first; k < first + (on_boundary ? 3 : 4); ++k) {
                 points_.port.push_back({point, h, k & 3});
             }
@@ -168,10 +169,10 @@ private:
     }
 
     void add_triangle(int t) {
-        PointRange& range = points_.in_triangle[to_index(t)];
+        PointRange& range = points_.in_triangle[at(t)];
         range.begin = static_cast<int>(points_.point.size());
-        for (const Coordinate& at : points_inside(map_, t)) {
-            const int point = add_point(Place::triangle, 3 * t, at);
+        for (const Coordinate& where : points_inside(map_, t)) {
+            const int point = add_point(Place::triangle, 3 * t, where);
             for (int k = 0; k < 4; ++k) points_.port.push_back({point, 3 * t, k});
         }
         range.end = static_cast<int>(points_.point.size());
@@ -181,33 +182,33 @@ private:
     IntegerPoints points_;
 };
 
-/// The point at `at` in a range sorted along `axis`, then across it; -1 where there is none.
+/// The point at `where` in a range sorted along `axis`, then across it; -1 where there is none.
 template <class Before>
-int search(const IntegerPoints& points, PointRange range, Coordinate at, Before before) {
+int search(const IntegerPoints& points, PointRange range, Coordinate where, Before before) {
     const auto begin = points.point.begin();
     const auto found = std::lower_bound(
-        begin + range.begin, begin + range.end, at,
+        begin + range.begin, begin + range.end, where,
         [&](const IntegerPoint& point, const Coordinate& z) { return before(point.at, z); });
-    if (found == begin + range.end || !(found->at == at)) return -1;
+    if (found == begin + range.end || !(found->at == where)) return -1;
     return static_cast<int>(found - begin);
 }
 
-int find_on_edge(const GridMap& map, const IntegerPoints& points, int h, Coordinate at) {
+int find_on_edge(const GridMap& map, const IntegerPoints& points, int h, Coordinate where) {
     const Coordinate along = minus(corner_of(map, Topology::next(h)), corner_of(map, h));
-    return search(points, points.on_edge[to_index(map.topology.edge[to_index(h)])], at,
+    return search(points, points.on_edge[at(map.topology.edge[at(h)])], where,
                   [&](Coordinate a, Coordinate b) {
                       return along.u != 0 ? (along.u > 0 ? a.u < b.u : a.u > b.u)
                                           : (along.v > 0 ? a.v < b.v : a.v > b.v);
                   });
 }
 
-int find_in_triangle(const GridMap& map, const IntegerPoints& points, int t, Coordinate at) {
+int find_in_triangle(const GridMap& map, const IntegerPoints& points, int t, Coordinate where) {
     const auto [a, b, c] =
         std::array{corner_of(map, 3 * t), corner_of(map, 3 * t + 1), corner_of(map, 3 * t + 2)};
     const std::int64_t width = std::max({a.u, b.u, c.u}) - std::min({a.u, b.u, c.u});
     const std::int64_t height = std::max({a.v, b.v, c.v}) - std::min({a.v, b.v, c.v});
     const bool by_u = width < height;
-    return search(points, points.in_triangle[to_index(t)], at, [&](Coordinate x, Coordinate y) {
+    return search(points, points.in_triangle[at(t)], where, [&](Coordinate x, Coordinate y) {
         return by_u ? std::pair(x.u, x.v) < std::pair(y.u, y.v)
                     : std::pair(x.v, x.u) < std::pair(y.v, y.u);
     });
@@ -216,9 +217,9 @@ int find_in_triangle(const GridMap& map, const IntegerPoints& points, int t, Coo
 /// The corner's sector leaves its last side to the next corner around the vertex: moves there.
 void move_to_owner(const GridMap& map, int& corner, int& direction) {
     const int side = Topology::previous(corner);
-    const int other = map.topology.twin[to_index(side)];
+    const int other = map.topology.twin[at(side)];
     if (other < 0 || !is_along_last_side(view_corner(map, corner, direction))) return;
-    direction = (direction + map.transition[to_index(side)].rotation) & 3;
+    direction = (direction + map.transition[at(side)].rotation) & 3;
     corner = other;
 }
 
@@ -227,29 +228,29 @@ void move_to_owner(const GridMap& map, int& corner, int& direction) {
 IntegerPoints find_integer_points(const GridMap& map) { return Finder(map).run(); }
 
 int find_port(const GridMap& map, const IntegerPoints& points, Place place, int half_edge,
-              Coordinate at, int direction) {
+              Coordinate where, int direction) {
     int point = -1;
     if (place == Place::vertex) {
-        point = points.at_vertex[to_index(map.topology.origin[to_index(half_edge)])];
+        point = points.at_vertex[at(map.topology.origin[at(half_edge)])];
         move_to_owner(map, half_edge, direction);
     } else if (place == Place::edge) {
-        const int edge = map.topology.edge[to_index(half_edge)];
-        const int owner = map.topology.edge_half_edge[to_index(edge)];
+        const int edge = map.topology.edge[at(half_edge)];
+        const int owner = map.topology.edge_half_edge[at(edge)];
         if (owner != half_edge) {
-            const GridMap::Transition& across = map.transition[to_index(half_edge)];
-            at = across(at);
+            const GridMap::Transition& across = map.transition[at(half_edge)];
+            where = across(where);
             direction = (direction + across.rotation) & 3;
             half_edge = owner;
         }
-        point = find_on_edge(map, points, half_edge, at);
+        point = find_on_edge(map, points, half_edge, where);
     } else {
         half_edge -= half_edge % 3;
-        point = find_in_triangle(map, points, half_edge / 3, at);
+        point = find_in_triangle(map, points, half_edge / 3, where);
     }
     if (point >= 0) {
-        const int first = points.point[to_index(point)].first_port;
+        const int first = points.point[at(point)].first_port;
         for (int i = first; i < first + points.port_count_of(point); ++i) {
-            const Port& port = points.port[to_index(i)];
+            const Port& port = points.port[at(i)];
             if (port.half_edge == half_edge && port.direction == direction) return i;
         }
     }

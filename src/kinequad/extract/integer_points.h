@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "kinequad/core/index.h"
 #include "kinequad/extract/chart.h"
 
 namespace kinequad::extraction {
@@ -43,9 +44,7 @@ struct IntegerPoints {
     std::vector<PointRange> in_triangle;  ///< m': in lexicographic order of (u, v) or of (v, u)
 
     int count() const { return static_cast<int>(point.size()) - 1; }
-    int port_count_of(int p) const {
-        return point[to_index(p) + 1].first_port - point[to_index(p)].first_port;
-    }
+    int port_count_of(int p) const { return point[at(p) + 1].first_port - point[at(p)].first_port; }
 };
 
 /// Finds and classifies all integer points exactly, numbered in the order of the triangles: first
@@ -53,10 +52,10 @@ struct IntegerPoints {
 /// that passed `require_extractable`.
 IntegerPoints find_integer_points(const GridMap& map);
 
-/// The port of the point at `at`, seen from the chart of the triangle of `half_edge`, that leaves
-/// it in direction i^`direction`; `half_edge` names the corner, edge or triangle as `place` says.
-/// Throws `VerificationError` where there is none.
+/// The port of the point at `where`, seen from the chart of the triangle of `half_edge`, that
+/// leaves it in direction i^`direction`; `half_edge` names the corner, edge or triangle as `place`
+/// says. Throws `VerificationError` where there is none.
 int find_port(const GridMap& map, const IntegerPoints& points, Place place, int half_edge,
-              Coordinate at, int direction);
+              Coordinate where, int direction);
 
 }  // namespace kinequad::extraction

@@ -6,10 +6,10 @@
 #include <set>
 #include <utility>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The corners of a quad from its lowest on: equal for equal oriented quads.
 std::array<int, 4> from_lowest(std::array<int, 4> corners) {

@@ -6,11 +6,10 @@
 #include <cstdint>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t to_index(int i) { return static_cast<std::size_t>(i); }
 
 void check_quads(const Quads& Q, int vertex_count) {
     for (int q = 0; q < Q.rows(); ++q) {
@@ -39,7 +38,7 @@ void pair_half_edges(QuadTopology& topology) {
     std::vector<Key> keys;
     keys.reserve(topology.origin.size());
     for (int h = 0; h < 4 * topology.quad_count; ++h) {
-        const auto a = static_cast<std::uint64_t>(topology.origin[to_index(h)]);
+        const auto a = static_cast<std::uint64_t>(topology.origin[at(h)]);
         const auto b = static_cast<std::uint64_t>(topology.target(h));
         keys.push_back({std::min(a, b) << 32U | std::max(a, b), h});
     }
@@ -51,7 +50,7 @@ void pair_half_edges(QuadTopology& topology) {
         std::size_t j = i + 1;
         while (j < keys.size() && keys[j].edge == keys[i].edge) ++j;
         const int first = keys[i].half_edge;
-        const int a = topology.origin[to_index(first)];
+        const int a = topology.origin[at(first)];
         const int b = topology.target(first);
         if (j - i > 2) {
             throw InputError(
@@ -61,15 +60,15 @@ void pair_half_edges(QuadTopology& topology) {
         }
         if (j - i == 2) {
             const int second = keys[i + 1].half_edge;
-            if (topology.origin[to_index(second)] == a) {
+            if (topology.origin[at(second)] == a) {
                 throw InputError(
                     InputFault::mesh,
                     fmt::format("quads {} and {} run along edge {}-{} in the same direction; "
                                 "orient the faces consistently",
                                 first / 4, second / 4, a, b));
             }
-            topology.twin[to_index(first)] = second;
-            topology.twin[to_index(second)] = first;
+            topology.twin[at(first)] = second;
+            topology.twin[at(second)] = first;
         }
         i = j;
     }
@@ -78,33 +77,32 @@ void pair_half_edges(QuadTopology& topology) {
 void number_edges(QuadTopology& topology) {
     topology.edge.assign(topology.twin.size(), -1);
     for (int h = 0; h < 4 * topology.quad_count; ++h) {
-        const int other = topology.twin[to_index(h)];
+        const int other = topology.twin[at(h)];
         if (other >= 0 && other < h) {
-            topology.edge[to_index(h)] = topology.edge[to_index(other)];
+            topology.edge[at(h)] = topology.edge[at(other)];
         } else {
-            topology.edge[to_index(h)] = topology.edge_count++;
+            topology.edge[at(h)] = topology.edge_count++;
             topology.edge_half_edge.push_back(h);
         }
     }
 }
 
 void link_vertices(QuadTopology& topology) {
-    std::vector<int> quads(to_index(topology.vertex_count), 0);
-    topology.vertex_half_edge.assign(to_index(topology.vertex_count), -1);
+    std::vector<int> quads(at(topology.vertex_count), 0);
+    topology.vertex_half_edge.assign(at(topology.vertex_count), -1);
     for (int h = 0; h < 4 * topology.quad_count; ++h) {
-        const int v = topology.origin[to_index(h)];
-        ++quads[to_index(v)];
-        int& chosen = topology.vertex_half_edge[to_index(v)];
-        if (chosen < 0 ||
-            (topology.twin[to_index(h)] < 0 && topology.twin[to_index(chosen)] >= 0)) {
+        const int v = topology.origin[at(h)];
+        ++quads[at(v)];
+        int& chosen = topology.vertex_half_edge[at(v)];
+        if (chosen < 0 || (topology.twin[at(h)] < 0 && topology.twin[at(chosen)] >= 0)) {
             chosen = h;
         }
     }
-    topology.valence.assign(to_index(topology.vertex_count), 0);
-    topology.neighbor.reserve(to_index(2 * topology.edge_count));
+    topology.valence.assign(at(topology.vertex_count), 0);
+    topology.neighbor.reserve(at(2 * topology.edge_count));
     for (int v = 0; v < topology.vertex_count; ++v) {
         topology.first_neighbor.push_back(static_cast<int>(topology.neighbor.size()));
-        const int start = topology.vertex_half_edge[to_index(v)];
+        const int start = topology.vertex_half_edge[at(v)];
         if (start < 0) continue;
         int reached = 0;
         for (int h = start;;) {
@@ -112,19 +110,19 @@ void link_vertices(QuadTopology& topology) {
             topology.neighbor.push_back(topology.target(h));
             const int after = topology.rotate_counter_clockwise(h);
             if (after < 0) {
-                topology.neighbor.push_back(topology.origin[to_index(QuadTopology::previous(h))]);
+                topology.neighbor.push_back(topology.origin[at(QuadTopology::previous(h))]);
             }
-            if (after < 0 || after == start || reached > quads[to_index(v)]) break;
+            if (after < 0 || after == start || reached > quads[at(v)]) break;
             h = after;
         }
-        if (reached != quads[to_index(v)]) {
+        if (reached != quads[at(v)]) {
             throw InputError(
                 InputFault::mesh,
                 fmt::format("vertex {} of the quad mesh is non-manifold: its {} quads form "
                             "more than one fan",
-                            v, quads[to_index(v)]));
+                            v, quads[at(v)]));
         }
-        topology.valence[to_index(v)] =
+        topology.valence[at(v)] =
             static_cast<int>(topology.neighbor.size()) - topology.first_neighbor.back();
     }
     topology.first_neighbor.push_back(static_cast<int>(topology.neighbor.size()));

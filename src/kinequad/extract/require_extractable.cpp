@@ -6,6 +6,7 @@
 #include <array>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/extract/chart.h"
 
 namespace kinequad::extraction {
@@ -23,11 +24,11 @@ bool is_within(Coordinate z, std::int64_t bound) {
 void check_sizes(const GridMap& map) {
     const auto triangles = static_cast<std::size_t>(map.mesh.F.rows());
     const bool fits =
-        to_index(map.topology.triangle_count) == triangles &&
+        at(map.topology.triangle_count) == triangles &&
         map.topology.origin.size() == 3 * triangles &&
         map.topology.vertex_count == map.mesh.vertex_count &&
         map.topology.twin.size() == 3 * triangles && map.topology.edge.size() == 3 * triangles &&
-        map.topology.vertex_half_edge.size() == to_index(map.topology.vertex_count) &&
+        map.topology.vertex_half_edge.size() == at(map.topology.vertex_count) &&
         std::equal(map.topology.origin.begin(), map.topology.origin.end(), map.mesh.F.data(),
                    map.mesh.F.data() + map.mesh.F.size()) &&
         map.corner.size() == 3 * triangles && map.transition.size() == 3 * triangles &&
@@ -75,18 +76,18 @@ void check_transitions(const GridMap& map) {
     for (int h = 0; h < 3 * map.topology.triangle_count; ++h) {
         const Coordinate from = corner_of(map, h);
         const Coordinate to = corner_of(map, Topology::next(h));
-        const int other = map.topology.twin[to_index(h)];
+        const int other = map.topology.twin[at(h)];
         if (other < 0) {
             constexpr std::int64_t mask = GridMap::one - 1;
             if (!((from.u == to.u && (from.u & mask) == 0) ||
                   (from.v == to.v && (from.v & mask) == 0))) {
                 throw GridMapError(
                     fmt::format("boundary edge {}-{} is not on an integer line of the grid map",
-                                map.topology.origin[to_index(h)], map.topology.target(h)));
+                                map.topology.origin[at(h)], map.topology.target(h)));
             }
             continue;
         }
-        const GridMap::Transition& across = map.transition[to_index(h)];
+        const GridMap::Transition& across = map.transition[at(h)];
         const bool is_sound = across.rotation >= 0 && across.rotation <= 3 &&
                               is_within(across.translation, 2 * largest_coordinate) &&
                               is_whole(across.translation) &&
@@ -95,27 +96,27 @@ void check_transitions(const GridMap& map) {
         if (!is_sound) {
             throw GridMapError(fmt::format(
                 "the transition of the grid map across edge {}-{} does not hold exactly",
-                map.topology.origin[to_index(h)], map.topology.target(h)));
+                map.topology.origin[at(h)], map.topology.target(h)));
         }
     }
 }
 
 /// A vertex with any other cone than a regular one must be a vertex of the quad mesh.
 void check_cones(const GridMap& map) {
-    std::vector<int> directions(to_index(map.topology.vertex_count), 0);
+    std::vector<int> directions(at(map.topology.vertex_count), 0);
     for (int h = 0; h < 3 * map.topology.triangle_count; ++h) {
-        const bool is_last = map.topology.twin[to_index(Topology::previous(h))] < 0;
+        const bool is_last = map.topology.twin[at(Topology::previous(h))] < 0;
         for (int direction = 0; direction < 4; ++direction) {
             const CornerView view = view_corner(map, h, direction);
             const bool counts = is_in_sector(view) || (is_last && is_along_last_side(view));
-            directions[to_index(map.topology.origin[to_index(h)])] += counts ? 1 : 0;
+            directions[at(map.topology.origin[at(h)])] += counts ? 1 : 0;
         }
     }
     for (int v = 0; v < map.topology.vertex_count; ++v) {
-        const int half_edge = map.topology.vertex_half_edge[to_index(v)];
+        const int half_edge = map.topology.vertex_half_edge[at(v)];
         if (half_edge < 0 || is_whole(corner_of(map, half_edge))) continue;
-        const int quarters = map.topology.is_boundary_vertex(v) ? directions[to_index(v)] - 1
-                                                                : directions[to_index(v)];
+        const int quarters =
+            map.topology.is_boundary_vertex(v) ? directions[at(v)] - 1 : directions[at(v)];
         if (quarters != (map.topology.is_boundary_vertex(v) ? 2 : 4)) {
             throw GridMapError(fmt::format(
                 "vertex {} of the grid map has a cone of {} quarter turns off the integer grid", v,

@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 
 namespace kinequad::extraction {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A wanted quad: its corners, the middles of its edges (k from corner k to k + 1), its centre.
 struct Cell {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/extract/quad_topology.h"
 
 namespace kinequad {
@@ -11,8 +12,6 @@ namespace {
 
 /// More rows than this mean that each new one makes another necessary.
 constexpr int most_rows = 100;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// An edge inside that joins two vertices of the curve, -1 where there is none.
 int edge_across(const QuadTopology& topology, const std::vector<char>& is_on_curve) {

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 
 namespace kinequad::extraction {
 namespace {
@@ -47,8 +48,8 @@ private:
     }
 
     void begin(int port) {
-        const Port& from = points_.port[to_index(port)];
-        const IntegerPoint& point = points_.point[to_index(from.point)];
+        const Port& from = points_.port[at(port)];
+        const IntegerPoint& point = points_.point[at(from.point)];
         walk_ = {Stage::triangle, from.half_edge, point.at, from.direction};
         if (point.place == Place::triangle) return;
         const CornerView view = view_corner(map_, from.half_edge, from.direction);
@@ -75,9 +76,9 @@ private:
 
     /// Takes the walk over to the chart across `half_edge`.
     void cross_edge(int half_edge) {
-        const int other = map_.topology.twin[to_index(half_edge)];
+        const int other = map_.topology.twin[at(half_edge)];
         if (other < 0) fail("leaves the surface");
-        const GridMap::Transition& across = map_.transition[to_index(half_edge)];
+        const GridMap::Transition& across = map_.transition[at(half_edge)];
         walk_ = {Stage::triangle, other, across(walk_.start),
                  (walk_.direction + across.rotation) & 3};
     }
@@ -95,12 +96,12 @@ private:
         const int first = walk_.half_edge - walk_.half_edge % 3;
         std::array<Coordinate, 3> seen;
         for (int k = 0; k < 3; ++k) {
-            seen[to_index(k)] = seen_from(corner_of(map_, first + k), walk_.start, walk_.direction);
+            seen[at(k)] = seen_from(corner_of(map_, first + k), walk_.start, walk_.direction);
         }
         for (int k = 0; k < 3; ++k) {
-            const Coordinate a = seen[to_index(k)];
-            const Coordinate b = seen[to_index((k + 1) % 3)];
-            const Coordinate c = seen[to_index((k + 2) % 3)];
+            const Coordinate a = seen[at(k)];
+            const Coordinate b = seen[at((k + 1) % 3)];
+            const Coordinate c = seen[at((k + 2) % 3)];
             const int h = first + k;
             if (a.v < 0 && b.v > 0) {
                 // The line leaves through h; the goal lies before, on or behind it.
@@ -140,7 +141,7 @@ private:
         do {
             const CornerView view = view_corner(map_, h, walk_.direction);
             const int side = Topology::previous(h);
-            const bool is_last = map_.topology.twin[to_index(side)] < 0;
+            const bool is_last = map_.topology.twin[at(side)] < 0;
             if (is_in_sector(view) || (is_last && is_along_last_side(view))) {
                 walk_.half_edge = h;
                 enter_sector(view);
@@ -151,7 +152,7 @@ private:
             h = walk_.half_edge;
         } while (h != arrival.half_edge);
         walk_ = arrival;
-        while (map_.topology.twin[to_index(walk_.half_edge)] >= 0) {
+        while (map_.topology.twin[at(walk_.half_edge)] >= 0) {
             cross_edge(walk_.half_edge);
             walk_.half_edge = Topology::next(walk_.half_edge);
             if (walk_.half_edge == arrival.half_edge) break;

@@ -9,11 +9,10 @@
 #include <string>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t to_index(int i) { return static_cast<std::size_t>(i); }
 
 /// Disjoint sets of the numbers below `count`.
 class Sets {
@@ -22,13 +21,13 @@ public:
         std::iota(parent_.begin(), parent_.end(), 0);
     }
     int find(int i) {
-        while (parent_[to_index(i)] != i) {
-            parent_[to_index(i)] = parent_[to_index(parent_[to_index(i)])];
-            i = parent_[to_index(i)];
+        while (parent_[at(i)] != i) {
+            parent_[at(i)] = parent_[at(parent_[at(i)])];
+            i = parent_[at(i)];
         }
         return i;
     }
-    void unite(int i, int j) { parent_[to_index(find(i))] = find(j); }
+    void unite(int i, int j) { parent_[at(find(i))] = find(j); }
 
 private:
     std::vector<int> parent_;
@@ -68,7 +67,7 @@ int next_corner(int corner) { return corner % 4 == 3 ? corner - 3 : corner + 1; 
 std::vector<Side> sorted_sides(const Quads& Q, const std::vector<bool>& is_valid) {
     std::vector<Side> sides;
     for (int side = 0; side < Q.size(); ++side) {
-        if (!is_valid[to_index(side / 4)]) continue;
+        if (!is_valid[at(side / 4)]) continue;
         const auto a = static_cast<std::uint64_t>(Q.data()[side]);
         const auto b = static_cast<std::uint64_t>(Q.data()[next_corner(side)]);
         sides.push_back({std::min(a, b) << 32U | std::max(a, b), side});
@@ -97,18 +96,18 @@ QuadMeshReport verify_quad_mesh(const QuadMesh& mesh, const Topology& input_topo
     report.input = count_surface(input_topology);
     report.invalid_points = count_invalid_points(mesh, input_topology.triangle_count);
 
-    std::vector<bool> is_valid(to_index(quad_count));
+    std::vector<bool> is_valid(at(quad_count));
     for (int q = 0; q < quad_count; ++q) {
-        is_valid[to_index(q)] = is_valid_quad(Q, q, vertex_count);
-        ++(is_valid[to_index(q)] ? report.quads : report.invalid_quads);
+        is_valid[at(q)] = is_valid_quad(Q, q, vertex_count);
+        ++(is_valid[at(q)] ? report.quads : report.invalid_quads);
     }
 
     // Corners of one vertex are in one set where a fan of quads joins them; vertices of one
     // boundary loop are in one set.
-    Sets quads(to_index(quad_count));
-    Sets corners(to_index(4 * quad_count));
-    Sets loops(to_index(vertex_count));
-    std::vector<bool> is_on_boundary(to_index(vertex_count), false);
+    Sets quads(at(quad_count));
+    Sets corners(at(4 * quad_count));
+    Sets loops(at(vertex_count));
+    std::vector<bool> is_on_boundary(at(vertex_count), false);
     const std::vector<Side> sides = sorted_sides(Q, is_valid);
     for (std::size_t i = 0; i < sides.size();) {
         std::size_t j = i + 1;
@@ -125,24 +124,24 @@ QuadMeshReport verify_quad_mesh(const QuadMesh& mesh, const Topology& input_topo
             const int a = vertex_at(sides[i].side);
             const int b = vertex_at(next_corner(sides[i].side));
             loops.unite(a, b);
-            is_on_boundary[to_index(a)] = is_on_boundary[to_index(b)] = true;
+            is_on_boundary[at(a)] = is_on_boundary[at(b)] = true;
         }
         report.non_manifold_edges += j - i > 2 ? 1 : 0;
         ++report.edges;
         i = j;
     }
 
-    std::vector<int> fans(to_index(vertex_count), 0);
+    std::vector<int> fans(at(vertex_count), 0);
     for (int corner = 0; corner < 4 * quad_count; ++corner) {
-        if (!is_valid[to_index(corner / 4)]) continue;
-        fans[to_index(vertex_at(corner))] += corners.find(corner) == corner ? 1 : 0;
+        if (!is_valid[at(corner / 4)]) continue;
+        fans[at(vertex_at(corner))] += corners.find(corner) == corner ? 1 : 0;
         report.components += corner % 4 == 0 && quads.find(corner / 4) == corner / 4 ? 1 : 0;
     }
     for (int v = 0; v < vertex_count; ++v) {
-        report.vertices += fans[to_index(v)] > 0 ? 1 : 0;
-        report.isolated_vertices += fans[to_index(v)] == 0 ? 1 : 0;
-        report.non_manifold_vertices += fans[to_index(v)] > 1 ? 1 : 0;
-        report.boundary_loops += is_on_boundary[to_index(v)] && loops.find(v) == v ? 1 : 0;
+        report.vertices += fans[at(v)] > 0 ? 1 : 0;
+        report.isolated_vertices += fans[at(v)] == 0 ? 1 : 0;
+        report.non_manifold_vertices += fans[at(v)] > 1 ? 1 : 0;
+        report.boundary_loops += is_on_boundary[at(v)] && loops.find(v) == v ? 1 : 0;
     }
     report.euler_characteristic = report.vertices - report.edges + report.quads;
     return report;

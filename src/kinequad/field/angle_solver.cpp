@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <numbers>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-constexpr double quarter = std::numbers::pi / 2;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Rows of the system: all triangles but the fixed ones and, in components where nothing is asked,
 /// the first, which holds the gauge.

@@ -6,18 +6,17 @@
 #include <queue>
 #include <utility>
 
+#include "kinequad/core/index.h"
 #include "kinequad/field/period_search.h"
 
 namespace kinequad {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr int largest_rounds = 10;
+using std::numbers::pi;
+constexpr int largest_cancel_rounds = 10;
 constexpr std::size_t partners = 2;
 /// Vertices around a crowded one that are tried for one of its quarters.
 constexpr std::size_t places = 24;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct PathStep {
     int edge = 0;
@@ -175,7 +174,7 @@ double gain_of(const SingularityPrice& price, const SolvedField& field,
 SolvedField cancel_pairs(const FieldProblem& problem, const AngleSolver& solver,
                          const SingularityPrice& price, SolvedField field, const Context& context) {
     PathFinder finder(problem);
-    for (int round = 0; round < largest_rounds; ++round) {
+    for (int round = 0; round < largest_cancel_rounds; ++round) {
         std::vector<Candidate> candidates;
         for (int v = 0; v < problem.vertex_count; ++v) {
             if (field.index[v] == 0) continue;

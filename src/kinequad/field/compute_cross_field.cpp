@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "kinequad/core/index.h"
 #include "kinequad/field/convex_field.h"
 #include "kinequad/field/period_search.h"
 #include "kinequad/field/round_greedily.h"
@@ -10,8 +11,6 @@
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The same field with every angle in [-pi/4, pi/4]: the periods take up the quarter turns.
 FieldState canonical(const FieldProblem& problem, FieldState state) {

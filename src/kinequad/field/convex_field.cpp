@@ -5,12 +5,11 @@
 #include <functional>
 #include <memory>
 
+#include "kinequad/core/index.h"
 #include "kinequad/solve/sparse_cholesky.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Inverse iteration gains little after these rounds: only the direction of z is used.
 constexpr int inverse_iterations = 5;

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <numbers>
+
 #include "kinequad/core/types.h"
 
 namespace kinequad {
+
+/// A quarter turn in radians, by which a cross is the same cross again.
+inline constexpr double quarter = std::numbers::pi / 2;
 
 /// A cross in every triangle, and how the crosses of neighbours correspond.
 ///

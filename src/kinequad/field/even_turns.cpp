@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <numbers>
 
+#include "kinequad/core/index.h"
 #include "kinequad/solve/sparse_cholesky.h"
 
 namespace kinequad {
 namespace {
 
 constexpr double largest_turn = 35 * std::numbers::pi / 180;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Chains of consecutive mirror half-edges; a closed one is a whole boundary loop.
 struct Chain {

@@ -11,14 +11,11 @@
 #include <utility>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/field/even_turns.h"
 
 namespace kinequad {
 namespace {
-
-constexpr double quarter = std::numbers::pi / 2;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Directions of all half-edges (3m) in the frames of their triangles.
 std::vector<double> all_directions(const Topology& topology, const IntrinsicMetric& metric) {

@@ -6,19 +6,19 @@
 #include <numbers>
 #include <utility>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr int largest_rounds = 60;
+using std::numbers::pi;
+constexpr int largest_search_rounds = 60;
 /// Single steps in a row that kept less than they promised, after which the search ends.
 constexpr int largest_failures = 8;
 /// Share of one period step's energy that no re-solving of the angles takes back, by measurement.
 constexpr double step_share = 1.0 / 3;
 /// Improvements below this are rounding.
 constexpr double least_gain = 1e-9;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct Step {
     int edge = 0;
@@ -159,7 +159,7 @@ SolvedField improve_periods(const FieldProblem& problem, const AngleSolver& solv
     std::vector<bool> banned(at(problem.edge_count), false);
     std::size_t batch = at(problem.edge_count);
     int failures = 0;
-    for (int round = 0; round < largest_rounds && failures < largest_failures; ++round) {
+    for (int round = 0; round < largest_search_rounds && failures < largest_failures; ++round) {
         context.check_cancelled();
         std::vector<Step> steps = promising_steps(problem, price, field, banned);
         if (steps.empty()) break;

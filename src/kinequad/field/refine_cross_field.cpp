@@ -3,14 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinequad/core/index.h"
 #include "kinequad/field/field_problem.h"
 
 namespace kinequad {
 namespace {
-
-constexpr double quarter = std::numbers::pi / 2;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The half-edge of the parent that half-edge `h` of the refined mesh lies on, -1 inside.
 int half_edge_of_parent(const RefinedMesh& fine, int h) {
@@ -33,8 +30,9 @@ CrossField refine_cross_field(const CrossField& field, const Topology& topology,
     for (int t = 0; t < fine_topology.triangle_count; ++t) {
         const int parent = fine.parent[at(t)];
         const auto layout = lay_out_triangle(side_lengths(topology, metric, parent));
+        const Eigen::Index corner = Eigen::Index{3} * t;
         const Vector2 axis =
-            layout * (fine.barycentric.row(3 * t + 1) - fine.barycentric.row(3 * t)).transpose();
+            layout * (fine.barycentric.row(corner + 1) - fine.barycentric.row(corner)).transpose();
         result.angle[t] = field.angle[parent] - std::atan2(axis[1], axis[0]);
     }
     result.period_jump = Eigen::VectorXi::Zero(fine_topology.edge_count);

@@ -5,12 +5,12 @@
 #include <numbers>
 #include <queue>
 
+#include "kinequad/core/index.h"
 #include "kinequad/solve/sparse_cholesky.h"
 
 namespace kinequad {
 namespace {
 
-constexpr double quarter = std::numbers::pi / 2;
 /// Changes of an angle below this, in radians, are not passed on to the neighbours.
 constexpr double local_tolerance = 1e-4;
 /// Angles that one rounding may re-solve locally.
@@ -19,8 +19,6 @@ constexpr int local_budget = 400;
 /// by how much more the next time. What is still free then weighs ever less.
 constexpr double first_patience = 40;
 constexpr double patience_growth = 1.03;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class GreedyRounding {
 public:

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
+#include "kinequad/core/index.h"
 #include "kinequad/solve/sparse_cholesky.h"
 
 namespace kinequad {
 namespace {
 
 using Entries = std::vector<Eigen::Triplet<double>>;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Vertices whose surroundings may change: those that touch no fixed triangle.
 std::vector<bool> free_vertices(const FieldProblem& problem, const Topology& topology) {

@@ -5,12 +5,11 @@
 #include <numbers>
 #include <vector>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Complex fourth_power(double angle) { return std::polar(1.0, 4 * angle); }
 

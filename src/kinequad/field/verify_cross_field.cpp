@@ -4,16 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinequad/core/index.h"
 #include "kinequad/field/field_problem.h"
 #include "kinequad/field/singularities.h"
 
 namespace kinequad {
 namespace {
 
-constexpr double quarter = std::numbers::pi / 2;
 constexpr double tolerance = 1e-6;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double distance_to_quarters(double angle) {
     return std::abs(angle - quarter * nearest_quarter(angle));

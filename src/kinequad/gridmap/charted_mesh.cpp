@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Copies the corner data of `from` to `to`, without connectivity.
 void copy_corner(ChartedMesh& mesh, std::size_t from, std::size_t to) {

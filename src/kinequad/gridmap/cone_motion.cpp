@@ -3,14 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "kinequad/core/index.h"
 #include "kinequad/gridmap/cone_triangulation.h"
 
 namespace kinequad {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 /// Time until the area of a triangle vanishes while it shrinks, when its edges change with
 /// `velocity`.

@@ -5,14 +5,11 @@
 #include <numeric>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/gridmap/cone_triangulation.h"
 
 namespace kinequad {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 void ConeTriangulation::take_out_vertices(const std::vector<char>& is_node) {
     const int vertex_count = static_cast<int>(is_node.size());

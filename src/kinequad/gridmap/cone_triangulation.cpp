@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The form whose parts are `u` and `v`.
 PlaneForm plane_form(const LinearForm<long>& u, const LinearForm<long>& v) {

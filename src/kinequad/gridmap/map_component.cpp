@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/gridmap/quantize.h"
 #include "kinequad/gridmap/refine_map.h"
 #include "kinequad/gridmap/relax_map.h"
@@ -15,8 +16,6 @@
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Multiples of the wanted number of quads that are tried one after the other.
 constexpr std::array<double, 6> densities = {1, 1.5, 2.5, 5, 12, 40};

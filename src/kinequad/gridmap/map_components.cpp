@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The part of every triangle, numbered in the order of their lowest triangles.
 std::vector<int> number_parts(const ChartedMesh& mesh, int& count) {

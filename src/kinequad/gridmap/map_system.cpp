@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Area, as a share of the longest side squared, below which a triangle counts as a sliver.
 constexpr double least_area_share = 1e-5;

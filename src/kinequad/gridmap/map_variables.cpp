@@ -8,12 +8,11 @@
 #include <numbers>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/gridmap/corner_form.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using IntegerForm = LinearForm<long>;
 using IntegerCorner = CornerForm<long>;

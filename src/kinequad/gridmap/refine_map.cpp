@@ -2,12 +2,11 @@
 
 #include <cmath>
 
+#include "kinequad/core/index.h"
 #include "kinequad/gridmap/corner_form.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using Form = LinearForm<double>;
 using RealCorner = CornerForm<double>;

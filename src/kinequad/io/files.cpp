@@ -14,13 +14,10 @@
 #include "kinequad/io/pending_files.h"
 
 namespace kinequad {
-namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
+void refuse_file(const std::filesystem::path& path, const std::string& what) {
     throw InputError(InputFault::file, fmt::format("{}: {}", path.string(), what));
 }
-
-}  // namespace
 
 std::string extension_of(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
@@ -47,13 +44,14 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 RandomAccessFile::RandomAccessFile(const std::filesystem::path& path) : path_(path) {
     descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor_ < 0) {
-        fail(path, fmt::format("cannot be opened: {}", std::generic_category().message(errno)));
+        refuse_file(path,
+                    fmt::format("cannot be opened: {}", std::generic_category().message(errno)));
     }
     struct stat status {};
     const bool known = ::fstat(descriptor_, &status) == 0;
     if (!known || !S_ISREG(status.st_mode)) {
         ::close(descriptor_);
-        fail(path, "is not a regular file");
+        refuse_file(path, "is not a regular file");
     }
     size_ = static_cast<std::uint64_t>(status.st_size);
 }
@@ -67,9 +65,10 @@ void RandomAccessFile::read(std::uint64_t offset, std::span<char> bytes) const {
                                       static_cast<::off_t>(offset + done));
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) {
-            fail(path_, fmt::format("cannot be read: {}", std::generic_category().message(errno)));
+            refuse_file(path_,
+                        fmt::format("cannot be read: {}", std::generic_category().message(errno)));
         }
-        if (got == 0) fail(path_, "became shorter while it was read; run again");
+        if (got == 0) refuse_file(path_, "became shorter while it was read; run again");
         done += static_cast<std::size_t>(got);
     }
 }

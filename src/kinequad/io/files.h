@@ -11,6 +11,9 @@ namespace kinequad {
 /// Extension of a path in lower case with its dot, as ".obj"; empty where there is none.
 std::string extension_of(const std::filesystem::path& path);
 
+/// Throws `InputError` (file) that names the file and what is wrong with it.
+[[noreturn]] void refuse_file(const std::filesystem::path& path, const std::string& what);
+
 /// All bytes of a file. Throws `InputError` (file) where it does not exist or cannot be read.
 std::string read_text_file(const std::filesystem::path& path);
 

@@ -19,10 +19,6 @@ namespace {
 
 using Path = std::filesystem::path;
 
-[[noreturn]] void fail(const std::string& name, const std::string& what) {
-    throw InputError(InputFault::file, fmt::format("{}: {}", name, what));
-}
-
 bool is_cache_file(const Path& path) {
     const std::string extension = extension_of(path);
     return extension == ".pc2" || extension == ".mdd";
@@ -45,16 +41,17 @@ std::unique_ptr<FrameSource> open_file(const Path& path, const SequenceOptions& 
     if (is_cache_file(path)) {
         const std::vector<Path> meshes = files_beside(path, {".obj", ".OBJ"});
         if (meshes.empty()) {
-            fail(path.string(), "has no OBJ of the same name beside it; its faces are needed");
+            refuse_file(path.string(),
+                        "has no OBJ of the same name beside it; its faces are needed");
         }
         return open_point_cache(meshes.front(), path, options);
     }
     if (extension_of(path) == ".obj") {
         const std::vector<Path> caches = files_beside(path, {".pc2", ".PC2", ".mdd", ".MDD"});
         if (caches.size() > 1) {
-            fail(path.string(),
-                 fmt::format("has both {} and {} beside it; name the one to be read",
-                             caches[0].filename().string(), caches[1].filename().string()));
+            refuse_file(path.string(),
+                        fmt::format("has both {} and {} beside it; name the one to be read",
+                                    caches[0].filename().string(), caches[1].filename().string()));
         }
         if (!caches.empty()) return open_point_cache(path, caches.front(), options);
     }
@@ -73,16 +70,17 @@ std::unique_ptr<FrameSource> open_listing(std::vector<Path> files, const std::st
     std::sort(files.begin(), files.end(), [](const Path& a, const Path& b) {
         return is_naturally_before(a.string(), b.string());
     });
-    if (files.empty()) fail(name, "holds no OBJ, PLY or OFF files; name the frames of a sequence");
+    if (files.empty())
+        refuse_file(name, "holds no OBJ, PLY or OFF files; name the frames of a sequence");
     const auto cache = std::find_if(files.begin(), files.end(), is_cache_file);
     const auto meshes = std::count_if(files.begin(), files.end(), is_mesh_file);
     if (cache != files.end()) {
         const auto caches = static_cast<std::ptrdiff_t>(files.size()) - meshes;
         if (caches > 1 || meshes > 1) {
-            fail(name,
-                 fmt::format(
-                     "holds the point cache {} among other sequences; name the one to be read",
-                     cache->filename().string()));
+            refuse_file(
+                name, fmt::format(
+                          "holds the point cache {} among other sequences; name the one to be read",
+                          cache->filename().string()));
         }
         return open_file(*cache, options);
     }
@@ -90,13 +88,14 @@ std::unique_ptr<FrameSource> open_listing(std::vector<Path> files, const std::st
     const std::string extension = extension_of(files.front());
     for (const Path& path : files) {
         if (extension_of(path) == extension) continue;
-        fail(name,
-             fmt::format("holds both {} and {} files; name one kind, as in \"{}/*{}\"", extension,
-                         extension_of(path), path.parent_path().string(), extension));
+        refuse_file(name, fmt::format("holds both {} and {} files; name one kind, as in \"{}/*{}\"",
+                                      extension, extension_of(path), path.parent_path().string(),
+                                      extension));
     }
     if (extension == ".stl") {
-        fail(name,
-             "STL files do not keep the order of the vertices; use OBJ, PLY or OFF for a sequence");
+        refuse_file(
+            name,
+            "STL files do not keep the order of the vertices; use OBJ, PLY or OFF for a sequence");
     }
     return open_mesh_files(std::move(files), name);
 }
@@ -108,7 +107,7 @@ std::vector<Path> list_folder(const Path& folder) {
     for (; !reason && entry != std::filesystem::directory_iterator(); entry.increment(reason)) {
         files.push_back(entry->path());
     }
-    if (reason) fail(folder.string(), "cannot be listed: " + reason.message());
+    if (reason) refuse_file(folder.string(), "cannot be listed: " + reason.message());
     return files;
 }
 
@@ -133,10 +132,11 @@ std::unique_ptr<FrameSource> open_sequence(const std::string& input,
     }
     if (std::filesystem::exists(input, ignored)) return open_file(input, options);
     if (input.find_first_of("*?[") == std::string::npos) {
-        fail(input, "does not exist; name a folder or glob of frames, or a mesh");
+        refuse_file(input, "does not exist; name a folder or glob of frames, or a mesh");
     }
     std::vector<Path> files = expand_glob(input);
-    if (files.empty()) fail(input, "matches no file; name a folder or glob of frames, or a mesh");
+    if (files.empty())
+        refuse_file(input, "matches no file; name a folder or glob of frames, or a mesh");
     return open_listing(std::move(files), input, options);
 }
 

@@ -9,6 +9,7 @@
 
 #include "kinequad/core/error.h"
 #include "kinequad/io/byte_order.h"
+#include "kinequad/io/files.h"
 
 namespace kinequad {
 namespace {
@@ -22,17 +23,13 @@ std::int32_t integer_at(std::string_view head, std::size_t offset, std::endian o
     return load_number<std::int32_t>(head.data() + offset, order);
 }
 
-[[noreturn]] void fail(const std::string& name, const std::string& what) {
-    throw InputError(InputFault::file, fmt::format("{}: {}", name, what));
-}
-
 /// Throws unless the file is exactly `head_size` bytes and `samples` times `points` points and
 /// `extra` bytes.
 void check_counts(int points, int samples, std::uint64_t head_size, std::uint64_t extra,
                   std::uint64_t file_size, const std::string& name) {
     if (points < 1 || samples < 1) {
-        fail(name, fmt::format("its header says {} samples of {} points; write it again", samples,
-                               points));
+        refuse_file(name, fmt::format("its header says {} samples of {} points; write it again",
+                                      samples, points));
     }
     // Divided, since the product of the counts need not fit 64 bits.
     const std::uint64_t sample_size = static_cast<std::uint64_t>(points) * point_size + extra;
@@ -40,22 +37,23 @@ void check_counts(int points, int samples, std::uint64_t head_size, std::uint64_
     const bool fits = available % sample_size == 0 &&
                       available / sample_size == static_cast<std::uint64_t>(samples);
     if (!fits) {
-        fail(name,
-             fmt::format("its header says {} samples of {} points, which does not fit a file of {} "
-                         "bytes; is it cut off?",
-                         samples, points, file_size));
+        refuse_file(
+            name,
+            fmt::format("its header says {} samples of {} points, which does not fit a file of {} "
+                        "bytes; is it cut off?",
+                        samples, points, file_size));
     }
 }
 
 PointCacheLayout parse_pc2(std::string_view head, std::uint64_t file_size,
                            const std::string& name) {
     if (!head.starts_with(pc2_magic.substr(0, std::min(head.size(), pc2_magic.size())))) {
-        fail(name, "is no PC2 point cache: it does not begin with POINTCACHE2");
+        refuse_file(name, "is no PC2 point cache: it does not begin with POINTCACHE2");
     }
-    if (head.size() < pc2_head_size) fail(name, "ends within its header; is it cut off?");
+    if (head.size() < pc2_head_size) refuse_file(name, "ends within its header; is it cut off?");
     const std::int32_t version = integer_at(head, 12, std::endian::little);
     if (version != 1)
-        fail(name, fmt::format("is a PC2 of version {}; only version 1 is known", version));
+        refuse_file(name, fmt::format("is a PC2 of version {}; only version 1 is known", version));
     PointCacheLayout layout;
     layout.points = integer_at(head, 16, std::endian::little);
     layout.samples = integer_at(head, 28, std::endian::little);
@@ -66,7 +64,7 @@ PointCacheLayout parse_pc2(std::string_view head, std::uint64_t file_size,
 
 PointCacheLayout parse_mdd(std::string_view head, std::uint64_t file_size,
                            const std::string& name) {
-    if (head.size() < mdd_head_size) fail(name, "ends within its header; is it cut off?");
+    if (head.size() < mdd_head_size) refuse_file(name, "ends within its header; is it cut off?");
     PointCacheLayout layout;
     layout.samples = integer_at(head, 0, std::endian::big);
     layout.points = integer_at(head, 4, std::endian::big);
@@ -89,7 +87,7 @@ PointCacheLayout read_layout(const RandomAccessFile& file) {
 
 PointCacheLayout parse_point_cache_layout(std::string_view head, std::uint64_t file_size,
                                           const std::string& extension, const std::string& name) {
-    if (file_size == 0) fail(name, "is empty; write it again");
+    if (file_size == 0) refuse_file(name, "is empty; write it again");
     return extension == ".mdd" ? parse_mdd(head, file_size, name)
                                : parse_pc2(head, file_size, name);
 }

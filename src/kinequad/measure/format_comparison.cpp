@@ -14,8 +14,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The measures that compare.json has a number a frame of.
-constexpr std::string_view frame_measures[] = {"angle_deviation_mean", "hausdorff_percent",
-                                               "mean_distance_percent", "scaled_jacobian_min"};
+constexpr std::string_view listed_measures[] = {"angle_deviation_mean", "hausdorff_percent",
+                                                "mean_distance_percent", "scaled_jacobian_min"};
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -59,7 +59,7 @@ nlohmann::ordered_json to_json(const Comparison& comparison) {
                                                 {"quads", counts.quads},
                                                 {"singular_vertices", counts.irregular_vertices}});
         const std::vector<MeasureSummary> summaries = summarize_metrics(method.metrics);
-        for (const std::string_view name : frame_measures) {
+        for (const std::string_view name : listed_measures) {
             Json& values = entry[std::string(name)] = nullptr;
             for (const MeasureSummary& summary : summaries) {
                 if (summary.name == name) values = summary.values;

@@ -11,7 +11,7 @@
 namespace kinequad {
 namespace {
 
-constexpr std::size_t block_size = 512;
+constexpr std::size_t aligned_block_size = 512;
 /// A triangle stretched more than this has collapsed: its directions are rounding.
 constexpr double largest_stretch = 1e6;
 
@@ -56,7 +56,7 @@ StretchAlignment::StretchAlignment(const StretchReference& reference, const Cont
     inverse_rest_.resize(m);
     area_ = Eigen::VectorXd::Zero(F_.rows());
     cross_ = Eigen::VectorXcd::Zero(F_.rows());
-    parallel_for(m, block_size, context, [&](std::size_t begin, std::size_t end) {
+    parallel_for(m, aligned_block_size, context, [&](std::size_t begin, std::size_t end) {
         int hint = -1;
         for (std::size_t i = begin; i < end; ++i) {
             const auto t = static_cast<Eigen::Index>(i);
@@ -75,9 +75,10 @@ StretchAlignment::StretchAlignment(const StretchReference& reference, const Cont
 void StretchAlignment::add_frame(const Positions& V, const Context& context) {
     const auto m = static_cast<std::size_t>(F_.rows());
     // Two sums a block, added up in the order of the blocks.
-    std::vector<std::array<double, 2>> sums((m + block_size - 1) / block_size, {0, 0});
-    parallel_for(m, block_size, context, [&](std::size_t begin, std::size_t end) {
-        auto& [weight, weighted] = sums[begin / block_size];
+    std::vector<std::array<double, 2>> sums((m + aligned_block_size - 1) / aligned_block_size,
+                                            {0, 0});
+    parallel_for(m, aligned_block_size, context, [&](std::size_t begin, std::size_t end) {
+        auto& [weight, weighted] = sums[begin / aligned_block_size];
         for (std::size_t i = begin; i < end; ++i) {
             const auto t = static_cast<Eigen::Index>(i);
             if (!(area_[t] > 0)) continue;

@@ -6,14 +6,13 @@
 #include <iterator>
 #include <numeric>
 
+#include "kinequad/core/index.h"
 #include "kinequad/mesh/edge_fans.h"
 #include "kinequad/mesh/find_crossings.h"
 #include "kinequad/mesh/flat_triangles.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<std::array<int, 2>> find_coincident_vertices(const Positions& V) {
     std::vector<int> order(static_cast<std::size_t>(V.rows()));

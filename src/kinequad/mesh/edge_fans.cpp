@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kinequad/core/index.h"
 #include "kinequad/mesh/topology.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 int origin(const Triangles& F, int h) { return F.data()[h]; }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double largest_bend = 50 * std::numbers::pi / 180;
 

@@ -5,10 +5,10 @@
 #include <queue>
 #include <vector>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Half-edges 3 t + k as in `Topology`, growing.
 class Refinement {

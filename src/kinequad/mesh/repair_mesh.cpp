@@ -6,13 +6,12 @@
 #include <array>
 #include <numeric>
 
+#include "kinequad/core/index.h"
 #include "kinequad/mesh/check_mesh.h"
 #include "kinequad/mesh/edge_fans.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Repair {
 public:

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 

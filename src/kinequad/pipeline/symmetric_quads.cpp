@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/extract/mirrored_quads.h"
 #include "kinequad/field/refine_cross_field.h"
 #include "kinequad/mesh/split_along_level.h"
@@ -19,8 +20,6 @@
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int largest_evening_rounds = 8;
 /// Share of an edge within which vertices come to lie on the stationary curve.

@@ -6,14 +6,12 @@
 #include <numbers>
 #include <utility>
 
+#include "kinequad/core/index.h"
 #include "kinequad/relax/sliding_quads.h"
 
 namespace kinequad {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-constexpr FoldBarrier relaxing_barrier;
 /// A quad that covers an extremity may become this slanted, but no more.
 constexpr double least_covering_jacobian = 0.15;
 

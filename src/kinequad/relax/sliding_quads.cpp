@@ -6,16 +6,14 @@
 #include <limits>
 #include <utility>
 
+#include "kinequad/core/index.h"
 #include "kinequad/mesh/trace_geodesic.h"
 
 namespace kinequad {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Moves shorter than this share of the quad's size are not worth a try.
 constexpr double least_move = 0.01;
-constexpr FoldBarrier relaxing_barrier;
 /// Share of the size of its quads below which a vertex of a line does not come near another.
 constexpr double least_edge = 0.1;
 /// Scaled Jacobian below which no move takes a quad in a reference for the sake of other frames.

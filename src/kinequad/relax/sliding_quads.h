@@ -13,6 +13,9 @@
 
 namespace kinequad {
 
+/// When a quad counts as badly shaped while its vertices slide.
+inline constexpr FoldBarrier relaxing_barrier;
+
 /// A frame of the input that is looked at, and how much it counts.
 struct SampledFrame {
     Positions input;  ///< n x 3

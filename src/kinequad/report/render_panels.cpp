@@ -46,7 +46,7 @@ Image render_panels(const std::vector<RenderPanel>& panels, int columns,
         }
         for (int y = 0; y < part.height; ++y) {
             const auto from = drawn.rgb.begin() + static_cast<std::ptrdiff_t>(drawn.offset(0, y));
-            std::copy(from, from + 3 * part.width,
+            std::copy(from, from + std::ptrdiff_t{3} * part.width,
                       image.rgb.begin() + static_cast<std::ptrdiff_t>(image.offset(left, top + y)));
         }
     }

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 BoundaryArcs::BoundaryArcs(const Topology& topology, const IntrinsicMetric& metric)
     : topology_(topology), start_(topology.origin.size()), length_(topology.origin.size(), 0) {

@@ -9,13 +9,12 @@
 #include <numeric>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/symmetry/cut_handles.h"
 #include "kinequad/symmetry/weld_seams.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Triangles renumber(const Triangles& F, const std::vector<int>& vertex) {
     Triangles result = F;

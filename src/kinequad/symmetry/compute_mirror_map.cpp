@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 #include "kinequad/mesh/closest_point_on_triangle.h"
 #include "kinequad/mesh/closest_points.h"
@@ -15,8 +16,6 @@
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// One component of the surface with its own search.
 struct Component {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 #include "kinequad/symmetry/check_landmarks.h"
 #include "kinequad/symmetry/closed_surface.h"
@@ -20,8 +21,6 @@
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 SphereLandmarks to_sphere_landmarks(const Landmarks& landmarks, const ClosedSurface& surface) {
     SphereLandmarks result;

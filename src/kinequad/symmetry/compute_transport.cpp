@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 #include "kinequad/symmetry/unfold_patch.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int patch_limit = 160;
 

@@ -6,17 +6,17 @@
 #include <limits>
 #include <queue>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr double unreached = std::numeric_limits<double>::infinity();
 
 /// A closed chain of half-edges.
 struct Loop {
     std::vector<int> half_edge;
-    double length = infinity;
+    double length = unreached;
 };
 
 /// Shortest paths from one vertex: the half-edge that each vertex is reached by, -1 at the root.
@@ -27,7 +27,7 @@ struct PathTree {
 
 PathTree grow_tree(const Topology& topology, const std::vector<double>& side, int root) {
     PathTree tree;
-    tree.distance.assign(at(topology.vertex_count), infinity);
+    tree.distance.assign(at(topology.vertex_count), unreached);
     tree.reached_by.assign(at(topology.vertex_count), -1);
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -114,7 +114,7 @@ Loop find_short_loop(const Topology& topology, const std::vector<double>& side,
                      const Context& context) {
     // Far-apart roots see every handle from nearby.
     std::vector<int> roots;
-    std::vector<double> nearest(at(topology.vertex_count), infinity);
+    std::vector<double> nearest(at(topology.vertex_count), unreached);
     int root = topology.origin.front();
     for (int i = 0; i < 10; ++i) {
         context.check_cancelled();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 #include "kinequad/mesh/trace_geodesic.h"
 #include "kinequad/solve/sparse_cholesky.h"
@@ -14,9 +15,7 @@
 namespace kinequad {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-constexpr int patch_limit = 200;
+constexpr int image_patch_limit = 200;
 constexpr double least_weight = 0.05;
 /// A round that lowers the energy by less than this share is the last.
 constexpr double least_gain = 0.01;
@@ -160,7 +159,7 @@ private:
             wanted.push_back({image_[at(w)].triangle, Vector3::Constant(1.0 / 3)});
         }
         const UnfoldedPatch patch =
-            unfold_patch(topology_, metric_, image_[at(v)].triangle, wanted, patch_limit);
+            unfold_patch(topology_, metric_, image_[at(v)].triangle, wanted, image_patch_limit);
         const auto sight_of = [&](std::size_t i) {
             Sight sight;
             if (!patch.is_found[1 + 2 * i] || !patch.is_found[2 + 2 * i]) return sight;

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Cosine of the angle opposite of `across`; defined even where the triangle inequality fails.
 double opposite_cosine(double across, double left, double right) {

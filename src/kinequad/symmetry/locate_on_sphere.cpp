@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "kinequad/core/index.h"
 #include "kinequad/mesh/closest_point_on_triangle.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct Corners {
     RealVector3 a, b, c;

@@ -6,12 +6,11 @@
 #include <limits>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/symmetry/punctured_disk.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Vertices with triangles, in the order of `remoteness`.
 std::vector<int> order_by_centrality(const Topology& topology,

@@ -5,14 +5,13 @@
 #include <numbers>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/solve/sparse_cholesky.h"
 
 namespace kinequad {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Half-edges that leave a vertex of a closed triangulation, counter-clockwise; cut off at 64.
 std::vector<int> star_of(const FlipTriangulation& mesh, int start) {

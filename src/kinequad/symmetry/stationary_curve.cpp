@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Where the curve crosses one triangle.
 struct Crossing {

@@ -6,18 +6,18 @@
 #include <limits>
 #include <queue>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 std::vector<double> edge_distances(const Topology& topology, const IntrinsicMetric& metric,
                                    int source) {
-    std::vector<double> distance(at(topology.vertex_count), infinity);
+    std::vector<double> distance(at(topology.vertex_count), endless);
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     distance[at(source)] = 0;
@@ -58,7 +58,7 @@ SurfaceDistances tabulate_distances(const Topology& topology, const IntrinsicMet
     SurfaceDistances table;
     table.source = landmarks;
     if (table.source.empty()) table.source.push_back(topology.origin.front());
-    std::vector<double> nearest(at(topology.vertex_count), infinity);
+    std::vector<double> nearest(at(topology.vertex_count), endless);
     table.mean.assign(at(topology.vertex_count), 0.0);
     const std::size_t total = std::max(count, table.source.size() + more);
     for (std::size_t i = 0; i < total; ++i) {

@@ -8,14 +8,13 @@
 #include <optional>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/mesh/pose_search.h"
 #include "kinequad/mesh/split_along_level.h"
 #include "kinequad/symmetry/boundary_arcs.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Share of an edge within which vertices come to lie on the curve.
 constexpr double snap_share = 0.2;
@@ -124,10 +123,10 @@ private:
         for (const int v : vertices) {
             near.push_back(nearest_place(half, v));
             ++votes[near.back().loop];
-            distance += (search_.place(half.mirrored[at(v)]) -
-                         search_.place(arcs_.point_at(near.back())))
-                            .norm() /
-                        static_cast<double>(vertices.size());
+            distance +=
+                (search_.place(half.mirrored[at(v)]) - search_.place(arcs_.point_at(near.back())))
+                    .norm() /
+                static_cast<double>(vertices.size());
         }
         const int loop = std::max_element(votes.begin(), votes.end(), [](auto& a, auto& b) {
                              return a.second < b.second;
@@ -179,7 +178,7 @@ private:
 /// The image of a point of the half's boundary between two vertices, if their images are on the
 /// boundary of the input.
 std::optional<SurfacePoint> mirror_on_boundary(const BoundaryArcs& arcs, const SurfacePoint& a,
-                                const SurfacePoint& b, double share) {
+                                               const SurfacePoint& b, double share) {
     const BoundaryPlace from = arcs.locate(a);
     const BoundaryPlace to = arcs.locate(b);
     if (from.loop < 0 || from.loop != to.loop) return std::nullopt;
@@ -282,9 +281,8 @@ std::vector<SurfacePoint> mirror_points(const SymmetricHalf& half, const Topolog
         if (h >= 0) {
             const double share =
                 point.triangle == h / 3 ? point.barycentric[Topology::next(h) % 3] : 0.0;
-            on_boundary =
-                mirror_on_boundary(arcs, half.mirrored[at(half_topology.origin[at(h)])],
-                                   half.mirrored[at(half_topology.target(h))], share);
+            on_boundary = mirror_on_boundary(arcs, half.mirrored[at(half_topology.origin[at(h)])],
+                                             half.mirrored[at(half_topology.target(h))], share);
         }
         const int start = half.mirrored[at(half.mesh.F(point.triangle, nearest))].triangle;
         result.push_back(on_boundary ? *on_boundary : search.find(wanted, start));

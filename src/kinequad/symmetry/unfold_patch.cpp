@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Corners of the triangle of half-edge `g` when its half-edge lies on the segment from `from` to
 /// `to`, left of it.

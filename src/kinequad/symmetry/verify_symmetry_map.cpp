@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 bool is_valid(const SurfacePoint& point, Eigen::Index triangle_count) {
     return point.triangle >= 0 && point.triangle < triangle_count &&

@@ -6,11 +6,10 @@
 #include <numeric>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<int> unwelded(const Topology& topology) {
     std::vector<int> vertex(at(topology.vertex_count));
@@ -48,7 +47,7 @@ std::vector<int> weld_places(const TriangleMesh& mesh, const Topology& topology)
 }
 
 /// A boundary loop that may be a seam, with its shape about its centre, scaled to perimeter 1.
-struct Loop {
+struct SeamLoop {
     std::vector<int> half_edge;
     Positions shape;  ///< a row for the origin of every half-edge
     double perimeter = 0;
@@ -56,11 +55,11 @@ struct Loop {
     int component = 0;
 };
 
-std::vector<Loop> collect_loops(const TriangleMesh& mesh, const Topology& topology) {
+std::vector<SeamLoop> collect_loops(const TriangleMesh& mesh, const Topology& topology) {
     const std::vector<int> component = triangle_components(topology);
-    std::vector<Loop> loops;
+    std::vector<SeamLoop> loops;
     for (std::vector<int>& chain : boundary_loops(topology)) {
-        Loop loop;
+        SeamLoop loop;
         loop.shape.resize(static_cast<Eigen::Index>(chain.size()), 3);
         Eigen::Index row = 0;
         for (const int h : chain) {
@@ -79,13 +78,13 @@ std::vector<Loop> collect_loops(const TriangleMesh& mesh, const Topology& topolo
 }
 
 /// `near` is a distance that parts which belong together may be apart, whatever their size.
-bool may_meet(const Loop& a, const Loop& b, double near) {
+bool may_meet(const SeamLoop& a, const SeamLoop& b, double near) {
     return a.half_edge.size() == b.half_edge.size() && a.component != b.component &&
            (a.centre - b.centre).norm() < std::max(near, std::min(a.perimeter, b.perimeter) / 2);
 }
 
 /// The loop nearest to loop `i` among those that it may meet; -1 where there is none.
-int nearest_loop(const std::vector<Loop>& loops, std::size_t i, double near) {
+int nearest_loop(const std::vector<SeamLoop>& loops, std::size_t i, double near) {
     int nearest = -1;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < loops.size(); ++j) {
@@ -105,7 +104,7 @@ std::size_t partner_of(std::size_t k, std::size_t shift, std::size_t count) {
 
 /// The shift at which two loops differ least, or -1 where even then their shapes have little in
 /// common.
-int fit_loops(const Loop& a, const Loop& b) {
+int fit_loops(const SeamLoop& a, const SeamLoop& b) {
     const std::size_t count = a.half_edge.size();
     double least = 0.05;  // of the perimeter
     int best = -1;
@@ -129,7 +128,7 @@ int fit_loops(const Loop& a, const Loop& b) {
 
 std::vector<int> weld_seams(const TriangleMesh& mesh, const Topology& topology) {
     std::vector<int> vertex = weld_places(mesh, topology);
-    std::vector<Loop> loops = collect_loops(mesh, topology);
+    std::vector<SeamLoop> loops = collect_loops(mesh, topology);
     const double near = 0.02 * bounding_box_diagonal(mesh.V);
     for (std::size_t i = 0; i < loops.size(); ++i) {
         const int j = nearest_loop(loops, i, near);
@@ -150,7 +149,7 @@ std::vector<int> weld_seams(const TriangleMesh& mesh, const Topology& topology) 
         vertex = std::move(trial);
         // Joined components count as one: a second seam between them would make a handle.
         const int joined = loops[at(j)].component;
-        for (Loop& loop : loops) {
+        for (SeamLoop& loop : loops) {
             if (loop.component == joined) loop.component = loops[i].component;
         }
     }

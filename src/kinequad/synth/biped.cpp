@@ -7,14 +7,14 @@ namespace kinequad::synth_detail {
 namespace {
 
 /// Bones, by the side where there are two.
-struct Skeleton {
+struct BipedBones {
     int pelvis, spine, chest, neck, head;
     int upper_arm, forearm, hand;
     int thigh, shin, foot, toes;
 };
 
-Skeleton add_bones(CreatureBuilder& body) {
-    Skeleton s{};
+BipedBones add_biped_bones(CreatureBuilder& body) {
+    BipedBones s{};
     s.pelvis = body.add_bone(-1, {0, 0.95, 0});
     s.spine = body.add_bone(s.pelvis, {0, 1.08, -0.01});
     s.chest = body.add_bone(s.spine, {0, 1.22, -0.01});
@@ -30,7 +30,7 @@ Skeleton add_bones(CreatureBuilder& body) {
     return s;
 }
 
-void add_trunk(CreatureBuilder& body, const Skeleton& s) {
+void add_trunk(CreatureBuilder& body, const BipedBones& s) {
     body.add_tube({{{{0, 0.945, 0}, 0.142, s.pelvis},
                     {{0, 1.02, 0.004}, 0.139, s.pelvis},
                     {{0, 1.11, 0.004}, 0.129, s.pelvis, s.spine},
@@ -54,7 +54,7 @@ void add_trunk(CreatureBuilder& body, const Skeleton& s) {
                          {{0.070, 0.895, -0.050}, 0.078, s.pelvis, s.thigh}}});
 }
 
-void add_limbs(CreatureBuilder& body, const Skeleton& s) {
+void add_limbs(CreatureBuilder& body, const BipedBones& s) {
     body.add_tube_pair({{{{0.110, 1.415, -0.010}, 0.066, s.chest},
                          {{0.175, 1.400, -0.012}, 0.066, s.chest, s.upper_arm},
                          {{0.235, 1.345, -0.013}, 0.058, s.upper_arm},
@@ -108,7 +108,7 @@ Leg leg_at(double stride) {
             cyclic_curve({8, 0, 0, 0, 6, 24, 12, 0, 4, 10}, stride)};
 }
 
-Pose walk_at(const std::vector<Bone>& bones, const Skeleton& s, double phase) {
+Pose walk_at(const std::vector<Bone>& bones, const BipedBones& s, double phase) {
     const double angle = 2 * std::numbers::pi * phase;
     Pose pose;
     pose.rotation.assign(bones.size(), Eigen::Quaterniond::Identity());
@@ -150,7 +150,7 @@ Pose walk_at(const std::vector<Bone>& bones, const Skeleton& s, double phase) {
 
 Creature make_biped() {
     CreatureBuilder body;
-    const Skeleton s = add_bones(body);
+    const BipedBones s = add_biped_bones(body);
     add_trunk(body, s);
     add_limbs(body, s);
     Creature& creature = body.creature;

@@ -66,7 +66,7 @@ CellCase make_case(unsigned mask) {
         if (inside(a) == inside(b)) continue;
         int& piece = number[static_cast<std::size_t>(find(edge))];
         if (piece < 0) piece = made.piece_count++;
-        made.piece[static_cast<std::size_t>(edge)] = static_cast<signed char>(piece);
+        made.piece[static_cast<std::size_t>(edge)] = piece;
     }
     return made;
 }

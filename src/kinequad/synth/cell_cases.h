@@ -9,7 +9,7 @@ namespace kinequad::synth_detail {
 /// where `u` and `v` are its place along the axes that follow `a` cyclically.
 struct CellCase {
     int piece_count = 0;
-    std::array<signed char, 12> piece{};  ///< of every edge, -1 where it is not crossed
+    std::array<int, 12> piece{};  ///< of every edge, -1 where it is not crossed
 };
 
 /// The case of corners whose bits in `mask` are set inside. Where a side of the cell is crossed

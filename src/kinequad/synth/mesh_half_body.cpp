@@ -191,7 +191,7 @@ public:
             }
             for (int piece = 0; piece < at.piece_count; ++piece) {
                 const auto p = static_cast<std::size_t>(piece);
-                const auto vertex = static_cast<std::size_t>(first_vertex_[slot] + piece);
+                const std::size_t vertex = static_cast<std::size_t>(first_vertex_[slot]) + p;
                 mesh.vertices[vertex] = sum[p] / crossings[p];
                 mesh.in_plane[vertex] = cell[0] == 0;
                 if (cell[0] == 0) mesh.vertices[vertex].x() = 0;
@@ -219,8 +219,9 @@ public:
                     cell[static_cast<std::size_t>((axis + 1) % 3)] -= u;
                     cell[static_cast<std::size_t>((axis + 2) % 3)] -= v;
                     const std::size_t slot = grid_.slot(cell);
-                    const auto edge = static_cast<std::size_t>(4 * axis + u + 2 * v);
-                    quad[k] = first_vertex_[slot] + cell_case(mask_[slot]).piece[edge];
+                    const int edge = 4 * axis + u + 2 * v;
+                    quad[k] = first_vertex_[slot] +
+                              cell_case(mask_[slot]).piece[static_cast<std::size_t>(edge)];
                 }
                 if (!inside) std::swap(quad[1], quad[3]);
                 quads.push_back(quad);

@@ -7,15 +7,15 @@ namespace kinequad::synth_detail {
 namespace {
 
 /// Bones, by the side where there are two.
-struct Skeleton {
+struct QuadrupedBones {
     int pelvis, spine, chest, neck, head;
     int tail_root, tail_middle, tail_tip;
     int upper_arm, forearm, hand;
     int thigh, shin, foot;
 };
 
-Skeleton add_bones(CreatureBuilder& body) {
-    Skeleton s{};
+QuadrupedBones add_quadruped_bones(CreatureBuilder& body) {
+    QuadrupedBones s{};
     s.pelvis = body.add_bone(-1, {0, 0.60, -0.34});
     s.spine = body.add_bone(s.pelvis, {0, 0.62, -0.14});
     s.chest = body.add_bone(s.spine, {0, 0.62, 0.12});
@@ -33,7 +33,7 @@ Skeleton add_bones(CreatureBuilder& body) {
     return s;
 }
 
-void add_trunk(CreatureBuilder& body, const Skeleton& s) {
+void add_trunk(CreatureBuilder& body, const QuadrupedBones& s) {
     body.add_tube({{{{0, 0.60, -0.40}, 0.130, s.pelvis},
                     {{0, 0.61, -0.29}, 0.145, s.pelvis},
                     {{0, 0.615, -0.14}, 0.132, s.pelvis, s.spine},
@@ -65,7 +65,7 @@ void add_trunk(CreatureBuilder& body, const Skeleton& s) {
                     {{0, 0.63, -0.94}, 0.027, s.tail_tip}}});
 }
 
-void add_limbs(CreatureBuilder& body, const Skeleton& s) {
+void add_limbs(CreatureBuilder& body, const QuadrupedBones& s) {
     body.add_tube_pair({{{{0.088, 0.580, 0.26}, 0.085, s.chest},
                          {{0.105, 0.510, 0.268}, 0.077, s.chest, s.upper_arm},
                          {{0.118, 0.430, 0.245}, 0.063, s.upper_arm},
@@ -94,7 +94,7 @@ void add_limbs(CreatureBuilder& body, const Skeleton& s) {
     body.add_contact_pair(s.foot, {0.121, 0.005, -0.315});
 }
 
-Pose walk_at(const std::vector<Bone>& bones, const Skeleton& s, double phase) {
+Pose walk_at(const std::vector<Bone>& bones, const QuadrupedBones& s, double phase) {
     const double angle = 2 * std::numbers::pi * phase;
     Pose pose;
     pose.rotation.assign(bones.size(), Eigen::Quaterniond::Identity());
@@ -141,7 +141,7 @@ Pose walk_at(const std::vector<Bone>& bones, const Skeleton& s, double phase) {
 
 Creature make_quadruped() {
     CreatureBuilder body;
-    const Skeleton s = add_bones(body);
+    const QuadrupedBones s = add_quadruped_bones(body);
     add_trunk(body, s);
     add_limbs(body, s);
     Creature& creature = body.creature;

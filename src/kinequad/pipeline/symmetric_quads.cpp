@@ -73,9 +73,24 @@ std::vector<FixedDirection> curve_directions(const LevelSplit& split, const Topo
     return directions;
 }
 
-/// The quads of both sides, from those of the half.
+/// Whether two views are the same but for rigid motions and mirrors, as those of a surface that
+/// mirrors in space: by their edge lengths in the poses that the sides are matched in.
+bool are_alike(const DomainView& one, const DomainView& other, const Topology& topology) {
+    constexpr double tolerance = 1e-6;
+    const auto shapes = matching_shapes(one.frames, one.reference);
+    const auto others = matching_shapes(other.frames, other.reference);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const Eigen::VectorXd lengths = metric_of(topology, shapes[i]).edge_length;
+        const Eigen::VectorXd there = metric_of(topology, others[i]).edge_length;
+        if ((lengths - there).norm() > tolerance * lengths.norm()) return false;
+    }
+    return true;
+}
+
+/// The quads of both sides, from those of the half. Unless the sides `are_tied`, as where they are
+/// alike, each finds its own place on the surface.
 QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const QuadMesh& half,
-                      const Context& context) {
+                      bool are_tied, const Context& context) {
     const FrameSource& frames = surface.frames;
     const Topology& topology = surface.topology;
     const IntrinsicMetric& metric = surface.metric;
@@ -90,8 +105,7 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
     }
     const std::vector<char> is_on_curve = curve_vertices(half, result.domain);
     QuadMesh whole = join_mirrored_quads(on_whole, mirrored, is_on_curve);
-    if (result.options.relax_rounds > 0) {
-        // The two sides differ: each finds its own place on the surface, and meets at the line.
+    if (result.options.relax_rounds > 0 && !are_tied) {
         const IntrinsicMetric lengths = metric_of(topology, reference);
         RelaxOptions options;
         options.line_edges = boundary_edges(topology);
@@ -193,8 +207,9 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
     finish_stage("symmetry");
 
     solve_field(views, result, context, finish_stage);
-    QuadMesh quads =
-        mirror_quads(surface, result, solve_quads(views, result, context, finish_stage), context);
+    const bool are_tied = are_alike(views[0], views[1], half_topology);
+    QuadMesh quads = mirror_quads(
+        surface, result, solve_quads(views, result, context, finish_stage), are_tied, context);
     result.mirror = judge_mirror(surface, result.symmetry->map, quads);
     return quads;
 }

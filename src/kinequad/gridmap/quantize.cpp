@@ -27,10 +27,11 @@ constexpr int most_attempts = 6;
 class Rounding {
 public:
     Rounding(ConeTriangulation cone, const Eigen::MatrixXd& stiffness, Eigen::VectorXd best,
-             double room_weight, const Context& context)
+             const WantedQuads& wanted, double room_weight, const Context& context)
         : cone_(std::move(cone)),
           stiffness_(stiffness),
           best_(std::move(best)),
+          wanted_(wanted),
           room_weight_(room_weight),
           context_(context),
           is_fixed_(static_cast<std::size_t>(best_.size()), 0),
@@ -330,18 +331,23 @@ private:
     }
 
     /// Takes a step that cones allow, and takes it back where the energy does not fall below
-    /// `before` or a loop gets too short for quads. Returns the energy.
+    /// `before`, a loop gets too short for quads or the count gets too far off. Returns the energy.
     double take_if_better(const Eigen::VectorXd& step, double before) {
         context_.check_cancelled();
         const int short_before = count_short_loops();
+        const double most_missed = std::max({wanted_.tolerance, rough * wanted_.count, missed()});
         if (!move(step)) return before;
         const double after = energy();
-        const bool is_better = after < before && count_short_loops() <= short_before;
+        const bool is_better =
+            after < before && count_short_loops() <= short_before && missed() <= most_missed + 1e-6;
         // Where the way back is blocked the step stays.
         const bool stays = is_better || !move(-step);
         snap_to_whole();
         return stays ? after : before;
     }
+
+    /// Quads too many or too few.
+    double missed() const { return std::abs(cone_.area() - wanted_.count); }
 
     /// Edges around a limb or a hole that are too short for a quad mesh.
     int count_short_loops() const {
@@ -376,6 +382,7 @@ private:
     ConeTriangulation cone_;
     const Eigen::MatrixXd& stiffness_;
     Eigen::VectorXd best_;
+    WantedQuads wanted_;
     double room_weight_;  ///< of the squares of lacking room against the energy
     const Context& context_;
     std::vector<char> is_fixed_;
@@ -424,8 +431,8 @@ std::optional<Quantization> quantize(const ConeTriangulation& cone,
         const double scale = centre * detours[blocked].scale;
         ConeTriangulation scaled = cone;
         scaled.scale(scale);
-        Rounding rounding(std::move(scaled), stiffness, scale * best, detours[blocked].room_weight,
-                          context);
+        Rounding rounding(std::move(scaled), stiffness, scale * best, wanted,
+                          detours[blocked].room_weight, context);
         const std::optional<Eigen::VectorXd> integers = rounding.run();
         if (!integers) {
             context.write_log(

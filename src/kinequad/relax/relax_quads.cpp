@@ -17,6 +17,7 @@ constexpr double least_jacobian = 0.05;
 constexpr int releasing_pass = 8;
 constexpr int most_unfolding_passes = 16;
 constexpr int fitting_rounds = 6;
+constexpr int most_rounds_in_vain = 2;
 constexpr int settling_rounds = 4;
 
 /// The references, then the other frames.
@@ -70,7 +71,9 @@ int fit(SlidingQuads& sliding, double limit, const Context& context) {
     };
     unfold(sliding, releasing_pass, context);
     State best = look();
-    for (int round = 0; round < fitting_rounds && (best.folded > 0 || best.distance > limit);
+    int rounds_in_vain = 0;
+    for (int round = 0; round < fitting_rounds && rounds_in_vain < most_rounds_in_vain &&
+                        (best.folded > 0 || best.distance > limit);
          ++round) {
         // Every other round starts from the best state with all vertices free.
         if (round % 2 == 1) {
@@ -83,7 +86,10 @@ int fit(SlidingQuads& sliding, double limit, const Context& context) {
         if (is_last_resort) sliding.release();
         unfold(sliding, is_last_resort ? most_unfolding_passes : releasing_pass, context);
         State now = look();
-        if (is_better(now, best)) best = std::move(now);
+        ++rounds_in_vain;
+        if (!is_better(now, best)) continue;
+        if (now.folded < best.folded || now.distance < 0.9 * best.distance) rounds_in_vain = 0;
+        best = std::move(now);
     }
     sliding.restore(best.quads);
     // What has moved away from squares for that comes back as far as it can.

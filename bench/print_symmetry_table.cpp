@@ -120,7 +120,7 @@ void print_map(const std::string& sequence, const std::filesystem::path& data) {
 }
 
 void print_quads(const std::string& sequence) {
-    for (const char* mode : {"none", "field", "exact"}) {
+    for (const char* mode : {"none", "orbits", "field", "exact"}) {
         const Json record = record_of(sequence, mode);
         if (record.is_null()) {
             fmt::print("| {} | {} | no result |\n", sequence, mode);

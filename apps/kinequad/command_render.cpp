@@ -37,6 +37,7 @@ struct RenderCommand {
     bool no_markers = false;
     std::string mirror;
     std::string symmetry;
+    std::string field;
 
     Viewpoint viewpoint() const { return named_viewpoint(view, up == "z" ? UpAxis::z : UpAxis::y); }
 };
@@ -46,12 +47,17 @@ struct DrawnInput {
     std::unique_ptr<FrameSource> source;
     RenderScene scene;  ///< without positions
     std::string symmetry;
+    std::string field;
 
     RenderPanel panel(int frame, const Camera& camera) const {
         RenderPanel result{scene, camera, ""};
         result.scene.V = source->read_frame(frame);
         if (!symmetry.empty()) {
             result.scene.curves = draw_symmetry(symmetry, scene.polygons, result.scene.V).curves;
+        }
+        if (!field.empty()) {
+            const auto lines = draw_streamlines(field, scene.polygons, result.scene.V);
+            result.scene.curves.insert(result.scene.curves.end(), lines.begin(), lines.end());
         }
         return result;
     }
@@ -72,6 +78,7 @@ std::vector<DrawnInput> open_inputs(const RenderCommand& command) {
             input.scene.polygon_colors = color_mirrored_quads(command.mirror, input.scene.polygons,
                                                               input.source->read_frame(0));
         }
+        input.field = command.field;
         if (!command.symmetry.empty()) {
             input.symmetry = command.symmetry;
             input.scene.polygon_colors =
@@ -90,6 +97,7 @@ RenderOptions options_of(const RenderCommand& command, std::size_t columns, std:
     options.draw_edges = !command.plain;
     const double panel = std::min(options.width / static_cast<double>(columns),
                                   options.height / static_cast<double>(rows));
+    if (!command.field.empty()) options.curve_width = 1.5;
     options.marker_radius = std::clamp(panel / 160, 2.5, 6.0);
     return options;
 }
@@ -249,6 +257,10 @@ void add_render_command(CLI::App& program, Session& session) {
                    "side by place, the other by the place of its image")
         ->check(CLI::ExistingFile)
         ->excludes("--mirror");
+    app.add_option("--field", command->field,
+                   "The field.json of the surface, from run --dump-stages: draws lines along the "
+                   "crosses")
+        ->check(CLI::ExistingFile);
     app.add_flag(
         "--no-markers", command->no_markers,
         "Do not mark irregular vertices of quad meshes (red: fewer than four quads, blue: more)");

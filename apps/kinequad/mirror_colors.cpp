@@ -113,6 +113,24 @@ Positions color_mirrored_quads(const std::string& path, const Quads& polygons, c
     return colors;
 }
 
+std::vector<RenderCurve> draw_streamlines(const std::string& path, const Quads& polygons,
+                                          const Positions& V) {
+    const Json file = read_json(path);
+    require(file.contains("streamlines"), InputFault::mesh, path + ": holds no streamlines");
+    std::vector<RenderCurve> curves;
+    for (const Json& line : file["streamlines"]) {
+        RenderCurve& curve = curves.emplace_back();
+        curve.points.resize(static_cast<Eigen::Index>(line.size()), 3);
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            require(line[i].at(0).get<Eigen::Index>() < polygons.rows(), InputFault::mesh,
+                    path + ": does not belong to this surface");
+            curve.points.row(static_cast<Eigen::Index>(i)) =
+                place_of(line[i], polygons, V).transpose();
+        }
+    }
+    return curves;
+}
+
 SymmetryDrawing draw_symmetry(const std::string& path, const Quads& polygons, const Positions& V) {
     const Json file = read_json(path);
     const bool fits = file.contains("image") && file.contains("stationary") &&

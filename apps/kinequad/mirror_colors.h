@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "kinequad/core/types.h"
 #include "kinequad/report/render_mesh.h"
@@ -21,5 +22,10 @@ struct SymmetryDrawing {
     std::vector<RenderCurve> curves;
 };
 SymmetryDrawing draw_symmetry(const std::string& path, const Quads& polygons, const Positions& V);
+
+/// The streamlines of a field.json at `path`, as `run --dump-stages` writes it, on a surface of
+/// triangles `polygons` (m x 4, the last index -1) in the pose `V` (n x 3). Throws as the others.
+std::vector<RenderCurve> draw_streamlines(const std::string& path, const Quads& polygons,
+                                          const Positions& V);
 
 }  // namespace kinequad::app

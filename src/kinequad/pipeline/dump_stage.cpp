@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "kinequad/field/trace_streamlines.h"
 #include "kinequad/io/files.h"
 
 namespace kinequad {
@@ -48,11 +49,34 @@ Json deformation_record(const DeformationTensors& tensors) {
             {"curvature", list(tensors.curvature)}};
 }
 
-Json field_record(const CrossField& field) {
+Json point_record(const SurfacePoint& point) {
+    return {point.triangle, point.barycentric[0], point.barycentric[1], point.barycentric[2]};
+}
+
+/// Lines along the arms of the field, ten quad edges each way, as points of the input.
+Json streamline_record(const Result& result) {
+    const Domain& domain = result.domain;
+    Json lines = Json::array();
+    for (const std::vector<SurfacePoint>& line :
+         trace_streamlines(domain.topology, domain.metric, result.field, 10 * result.edge_length)) {
+        Json points = Json::array();
+        for (SurfacePoint point : line) {
+            point = point_of_input(domain.surface.mesh, point);
+            if (result.refined) point = point_of_input(*result.refined, point);
+            points.push_back(point_record(point));
+        }
+        lines.push_back(std::move(points));
+    }
+    return lines;
+}
+
+Json field_record(const Result& result) {
+    const CrossField& field = result.field;
     return {{"angle", list(field.angle)},
             {"period_jump", list(field.period_jump)},
             {"index", list(field.index)},
-            {"energy", field.energy}};
+            {"energy", field.energy},
+            {"streamlines", streamline_record(result)}};
 }
 
 Json map_record(const GridMap& map) {
@@ -75,8 +99,7 @@ Json map_record(const GridMap& map) {
 Json quads_record(const QuadMesh& quads) {
     Json vertices = Json::array();
     for (const SurfacePoint& point : quads.vertex) {
-        vertices.push_back(
-            {point.triangle, point.barycentric[0], point.barycentric[1], point.barycentric[2]});
+        vertices.push_back(point_record(point));
     }
     return {{"quads", rows<4>(quads.Q)}, {"vertex", vertices}, {"mirror", quads.mirror}};
 }
@@ -88,7 +111,7 @@ Json record_of(std::string_view stage, const Result& result) {
                 {"quad_edge_length", result.edge_length}};
     }
     if (stage == "deformation") return deformation_record(result.tensors);
-    if (stage == "field") return field_record(result.field);
+    if (stage == "field") return field_record(result);
     if (stage == "map") return map_record(result.map);
     return quads_record(result.quads);
 }

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 namespace kinequad::test {
 
@@ -35,9 +37,23 @@ Outcome run_program(const ScratchFolder& scratch, const std::string& arguments) 
 }
 
 void make_biped(const ScratchFolder& scratch) {
-    const Outcome outcome =
-        run_program(scratch, "synth biped -o biped --triangles 3000 --frames 4 -q");
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    namespace fs = std::filesystem;
+    // Made once for every build of the program, beside it; a folder comes into place whole.
+    const fs::path program = KINEQUAD_PROGRAM;
+    const auto built = fs::last_write_time(program).time_since_epoch().count();
+    const fs::path kept = program.parent_path() / ("test_biped_" + std::to_string(built));
+    if (!fs::exists(kept)) {
+        const Outcome outcome =
+            run_program(scratch, "synth biped -o biped --triangles 3000 --frames 4 -q");
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        const fs::path fresh = kept.string() + "_" + scratch.path().filename().string();
+        fs::copy(scratch / "biped", fresh, fs::copy_options::recursive);
+        std::error_code is_there_already;
+        fs::rename(fresh, kept, is_there_already);
+        if (is_there_already) fs::remove_all(fresh);
+        return;
+    }
+    fs::copy(kept, scratch / "biped", fs::copy_options::recursive);
 }
 
 std::string content_of(const std::filesystem::path& path) {

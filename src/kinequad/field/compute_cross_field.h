@@ -17,7 +17,7 @@ struct FixedDirection {
 };
 
 /// Draws every cross to that of its mirror image: adds `weight sum_t (theta_image + theta_t -
-/// transport_t)^2` to the energy, each at its nearest quarter turn. docs/field.md
+/// transport_t)^2` to the energy, each at its nearest quarter turn. docs/symmetry.md
 struct SymmetryTerm {
     double weight = 0;          ///< in the energy whose smoothness counts 1; 0 for none
     std::vector<int> image;     ///< m: triangle that holds the image of the centre, -1 for none

@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <numbers>
-#include <queue>
-#include <utility>
 
 #include "kinequad/core/error.h"
 #include "kinequad/core/index.h"
 #include "kinequad/field/even_turns.h"
+#include "kinequad/mesh/edge_distances.h"
 
 namespace kinequad {
 namespace {
@@ -111,38 +108,13 @@ void fix_crosses(FieldProblem& problem, const Topology& topology, const Intrinsi
 std::vector<double> measure_avoidance(const Topology& topology, const IntrinsicMetric& metric,
                                       const CrossFieldOptions& options) {
     const double range = options.edge_length;
-    std::vector<double> distance(at(topology.vertex_count),
-                                 std::numeric_limits<double>::infinity());
-    using Entry = std::pair<double, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-    const auto start_at = [&](int v) {
-        distance[at(v)] = 0;
-        front.push({0, v});
-    };
-    for (const int v : options.avoided_vertices) start_at(v);
+    std::vector<int> sources = options.avoided_vertices;
     for (const int e : options.mirror_edges) {
         const int h = topology.edge_half_edge[at(e)];
-        start_at(topology.origin[at(h)]);
-        start_at(topology.target(h));
+        sources.push_back(topology.origin[at(h)]);
+        sources.push_back(topology.target(h));
     }
-    std::vector<std::vector<std::pair<int, int>>> edges_at(at(topology.vertex_count));
-    for (int e = 0; e < topology.edge_count; ++e) {
-        const int h = topology.edge_half_edge[at(e)];
-        edges_at[at(topology.origin[at(h)])].emplace_back(topology.target(h), e);
-        edges_at[at(topology.target(h))].emplace_back(topology.origin[at(h)], e);
-    }
-    while (!front.empty()) {
-        const double d = front.top().first;
-        const int v = front.top().second;
-        front.pop();
-        if (d > distance[at(v)]) continue;
-        for (const auto& [w, e] : edges_at[at(v)]) {
-            const double next = d + metric.edge_length[e];
-            if (next >= distance[at(w)] || next >= range) continue;
-            distance[at(w)] = next;
-            front.push({next, w});
-        }
-    }
+    const std::vector<double> distance = edge_distances(topology, metric, sources, range);
     std::vector<double> avoidance(distance.size(), 0);
     for (std::size_t v = 0; v < distance.size(); ++v) {
         if (distance[v] == 0) {

@@ -22,7 +22,7 @@ CrossFieldTargets average_over_orbits(const Topology& topology, const IntrinsicM
                                       const CrossField& field, const SymmetryMap& map,
                                       double weight, const Context& context);
 
-/// The term that draws every cross to its mirror image in the energy itself. docs/field.md
+/// The term that draws every cross to its mirror image in the energy itself. docs/symmetry.md
 SymmetryTerm symmetry_term(const SymmetryMap& map, double weight);
 
 /// How symmetric a cross field is.

@@ -15,7 +15,7 @@ enum class SymmetryMode {
     exact,  ///< one half is solved and mirrored: the connectivity is its own mirror image
 };
 
-/// How `SymmetryMode::field` makes the cross field symmetric. docs/field.md
+/// How `SymmetryMode::field` makes the cross field symmetric. docs/symmetry.md
 enum class Symmetrisation {
     orbits,  ///< solved, averaged over orbits, and solved again towards the average [Du and Tu]
     term,    ///< solved once, with a symmetry term in the energy

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "kinequad/mesh/edge_distances.h"
 #include "kinequad/symmetry/locate_on_sphere.h"
 #include "kinequad/symmetry/warp_to_landmarks.h"
 
@@ -25,7 +26,7 @@ SphereLandmarks match_extremities(const Topology& topology, const IntrinsicMetri
     SurfaceDistances from_ends;
     for (const int v : ends) {
         from_ends.source.push_back(v);
-        from_ends.distance.push_back(edge_distances(topology, metric, v));
+        from_ends.distance.push_back(edge_distances(topology, metric, {v}));
     }
     struct Choice {
         std::size_t end = 0;

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
 
 #include "kinequad/core/index.h"
+#include "kinequad/mesh/edge_distances.h"
 
 namespace kinequad {
 namespace {
@@ -14,33 +13,6 @@ namespace {
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 }  // namespace
-
-std::vector<double> edge_distances(const Topology& topology, const IntrinsicMetric& metric,
-                                   int source) {
-    std::vector<double> distance(at(topology.vertex_count), endless);
-    using Entry = std::pair<double, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    distance[at(source)] = 0;
-    queue.emplace(0.0, source);
-    while (!queue.empty()) {
-        const auto [d, v] = queue.top();
-        queue.pop();
-        if (d > distance[at(v)]) continue;
-        const int start = topology.vertex_half_edge[at(v)];
-        int h = start;
-        while (h >= 0) {
-            const int w = topology.target(h);
-            const double there = d + metric.edge_length[topology.edge[at(h)]];
-            if (there < distance[at(w)]) {
-                distance[at(w)] = there;
-                queue.emplace(there, w);
-            }
-            h = topology.rotate_counter_clockwise(h);
-            if (h == start) break;
-        }
-    }
-    return distance;
-}
 
 double SurfaceDistances::to_point(const Topology& topology, std::size_t i,
                                   const SurfacePoint& point) const {
@@ -71,7 +43,7 @@ SurfaceDistances tabulate_distances(const Topology& topology, const IntrinsicMet
             }
             table.source.push_back(farthest);
         }
-        table.distance.push_back(edge_distances(topology, metric, table.source[i]));
+        table.distance.push_back(edge_distances(topology, metric, {table.source[i]}));
         for (std::size_t v = 0; v < nearest.size(); ++v) {
             const double d = table.distance.back()[v];
             nearest[v] = std::min(nearest[v], d);

@@ -7,10 +7,6 @@
 
 namespace kinequad {
 
-/// Lengths of shortest edge paths from `source` to all vertices (n); infinite where none leads.
-std::vector<double> edge_distances(const Topology& topology, const IntrinsicMetric& metric,
-                                   int source);
-
 /// Distances from some vertices to all.
 struct SurfaceDistances {
     std::vector<int> source;                    ///< vertices

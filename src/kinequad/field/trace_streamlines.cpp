@@ -1,55 +1,16 @@
 #include "kinequad/field/trace_streamlines.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
 #include "kinequad/core/index.h"
+#include "kinequad/mesh/leave_triangle.h"
 
 namespace kinequad {
 namespace {
-
-/// Where a straight line leaves a triangle.
-struct Exit {
-    SurfacePoint point;  ///< in the triangle that is left
-    double length = 0;   ///< of the way there
-    int half_edge = -1;  ///< that is crossed
-};
-
-Exit leave_triangle(const Eigen::Matrix<double, 2, 3>& corners, const SurfacePoint& start,
-                    double angle) {
-    Eigen::Matrix2d sides;
-    sides << corners.col(1) - corners.col(0), corners.col(2) - corners.col(0);
-    const Vector2 st = sides.inverse() * Vector2(std::cos(angle), std::sin(angle));
-    const Vector3 change(-st[0] - st[1], st[0], st[1]);
-    Exit exit;
-    exit.length = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 3; ++k) {
-        if (!(change[k] < 0)) continue;
-        const double until = std::max(0.0, start.barycentric[k]) / -change[k];
-        if (until >= exit.length) continue;
-        exit.length = until;
-        exit.half_edge = 3 * start.triangle + (k + 1) % 3;
-    }
-    if (exit.half_edge < 0) return exit;
-    const Vector3 end = (start.barycentric + exit.length * change).cwiseMax(0);
-    exit.point = {start.triangle, end / end.sum()};
-    return exit;
-}
-
-/// The same point of an edge in the triangle across half-edge `h`.
-SurfacePoint across(const Topology& topology, const SurfacePoint& point, int h) {
-    const int other = topology.twin[at(h)];
-    SurfacePoint next{other / 3, Vector3::Zero()};
-    next.barycentric[other % 3] = point.barycentric[Topology::next(h) % 3];
-    next.barycentric[Topology::next(other) % 3] = point.barycentric[h % 3];
-    next.barycentric /= next.barycentric.sum();
-    return next;
-}
 
 class Tracer {
 public:
@@ -88,14 +49,14 @@ private:
         std::vector<SurfacePoint> points;
         for (int crossing = 0; crossing < most_crossings && length > 0; ++crossing) {
             is_passed_[at(here.triangle)] = 1;
-            const auto sides = side_lengths(topology_, metric_, here.triangle);
-            if (!(triangle_area(sides) > 0)) break;
-            const Exit exit = leave_triangle(lay_out_triangle(sides), here, angle);
+            if (!(triangle_area(side_lengths(topology_, metric_, here.triangle)) > 0)) break;
+            const Vector2 arm_way(std::cos(angle), std::sin(angle));
+            const TriangleExit exit = leave_triangle(topology_, metric_, here, arm_way);
             if (exit.half_edge < 0) break;
-            points.push_back(exit.point);
-            length -= exit.length;
+            points.push_back(point_on_way(topology_, metric_, here, arm_way, exit.share));
+            length -= exit.share;
             if (topology_.twin[at(exit.half_edge)] < 0) break;
-            here = across(topology_, exit.point, exit.half_edge);
+            here = point_across(topology_, points.back(), exit.half_edge);
             const double carried = angle + frame_rotation(topology_, metric_, exit.half_edge);
             const double arm = field_.angle[here.triangle];
             angle =

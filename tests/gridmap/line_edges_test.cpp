@@ -25,7 +25,9 @@ std::vector<int> edges_where(const Topology& topology, const Positions& V,
     return edges;
 }
 
-GridMap map_with_lines(const TriangleMesh& mesh, const std::vector<int>& lines, int vertices) {
+/// The map of the smoothest field along `lines`, which are lines of `options` by `kind`.
+GridMap map_along(const TriangleMesh& mesh, const std::vector<int>& lines, int vertices,
+                  std::vector<int> GridMapOptions::*kind) {
     const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));
     const IntrinsicMetric metric = metric_of(topology, mesh.V);
     CrossFieldOptions field_options;
@@ -33,8 +35,17 @@ GridMap map_with_lines(const TriangleMesh& mesh, const std::vector<int>& lines, 
     const CrossField field = compute_cross_field(topology, metric, {}, field_options, {});
     GridMapOptions options;
     options.vertex_count = vertices;
-    options.line_edges = lines;
+    options.*kind = lines;
     return compute_grid_map(topology, metric, field, options, {});
+}
+
+GridMap map_with_lines(const TriangleMesh& mesh, const std::vector<int>& lines, int vertices) {
+    return map_along(mesh, lines, vertices, &GridMapOptions::line_edges);
+}
+
+GridMap map_with_features(const TriangleMesh& mesh, const std::vector<int>& features,
+                          int vertices) {
+    return map_along(mesh, features, vertices, &GridMapOptions::feature_edges);
 }
 
 void expect_lines_kept(const GridMap& map, std::size_t least_count) {
@@ -71,19 +82,6 @@ TEST(LineEdges, LinesMayEndCrossAndReachTheBoundary) {
     lines.insert(lines.end(), across.begin(), across.end());
     ASSERT_EQ(lines.size(), 16 + across.size());
     expect_lines_kept(map_with_lines(mesh, lines, 300), lines.size());
-}
-
-GridMap map_with_features(const TriangleMesh& mesh, const std::vector<int>& features,
-                          int vertices) {
-    const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));
-    const IntrinsicMetric metric = metric_of(topology, mesh.V);
-    CrossFieldOptions field_options;
-    field_options.feature_edges = features;
-    const CrossField field = compute_cross_field(topology, metric, {}, field_options, {});
-    GridMapOptions options;
-    options.vertex_count = vertices;
-    options.feature_edges = features;
-    return compute_grid_map(topology, metric, field, options, {});
 }
 
 TEST(FeatureLines, AllEdgesOfACubeAreIntegerLines) {

@@ -19,6 +19,8 @@ namespace {
 constexpr double wanted_room = 1.3;
 /// Length every edge between cones should keep, in cells; whole ones have at least 1.
 constexpr double wanted_distance = 1.2;
+/// What is asked of loops above the cells that quads need around them.
+constexpr double loop_slack = 0.2;
 /// Share by which the count may be missed where cones leave little choice.
 constexpr double rough = 0.045;
 /// How often rounding may get stuck before a scale is given up.
@@ -95,8 +97,8 @@ private:
     /// boundary.
     double wanted_length(int h) const {
         const int boundary = cone_.boundary_loop_size(h);
-        if (boundary > 0 && boundary < 3) return 4.0 / boundary + 0.2;
-        return cone_.is_loop(h) ? 3.2 : wanted_distance;
+        if (boundary > 0 && boundary < 3) return 4.0 / boundary + loop_slack;
+        return cone_.is_loop(h) ? 3 + loop_slack : wanted_distance;
     }
 
     /// Adds the square of `lack - gradient * step` to the normal equations over the unknowns that
@@ -355,7 +357,7 @@ private:
         int count = 0;
         for (const int h : cone_.edges()) {
             const double wanted = wanted_length(h);
-            if (wanted > wanted_distance && cone_.edge_length(h) < wanted - 0.2 - tolerance)
+            if (wanted > wanted_distance && cone_.edge_length(h) < wanted - loop_slack - tolerance)
                 ++count;
         }
         return count;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "file_drawings.h"
 #include "input_options.h"
 #include "kinequad/core/error.h"
 #include "kinequad/io/files.h"
@@ -16,7 +17,6 @@
 #include "kinequad/report/render_mesh.h"
 #include "kinequad/report/render_panels.h"
 #include "kinequad/report/write_png.h"
-#include "mirror_colors.h"
 #include "output_folder.h"
 
 namespace kinequad::app {

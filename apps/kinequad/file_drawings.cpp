@@ -1,4 +1,4 @@
-#include "mirror_colors.h"
+#include "file_drawings.h"
 
 #include <fmt/format.h>
 

@@ -107,7 +107,8 @@ Eigen::SparseMatrix<double> add_symmetry(const FieldProblem& problem, System& sy
             system.right[image] += carried(t);
         }
     }
-    Eigen::SparseMatrix<double> matrix(2 * problem.triangle_count, 2 * problem.triangle_count);
+    const Eigen::Index size = 2 * static_cast<Eigen::Index>(problem.triangle_count);
+    Eigen::SparseMatrix<double> matrix(size, size);
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
 }

@@ -14,7 +14,7 @@ SurfacePoint trace_geodesic(const Topology& topology, const IntrinsicMetric& met
         if (triangle_area(side_lengths(topology, metric, here.triangle)) <= 0) return here;
         const TriangleExit exit = leave_triangle(topology, metric, here, left);
         if (!(exit.share < 1)) return point_on_way(topology, metric, here, left, 1);
-        const SurfacePoint end = point_on_way(topology, metric, here, left, exit.share);
+        SurfacePoint end = point_on_way(topology, metric, here, left, exit.share);
         if (topology.twin[at(exit.half_edge)] < 0) return end;
         here = point_across(topology, end, exit.half_edge);
         const double turn = frame_rotation(topology, metric, exit.half_edge);

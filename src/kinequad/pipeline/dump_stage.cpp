@@ -70,7 +70,7 @@ Json streamline_record(const Result& result) {
     return lines;
 }
 
-Json field_record(const Result& result) {
+Json cross_field_record(const Result& result) {
     const CrossField& field = result.field;
     return {{"angle", list(field.angle)},
             {"period_jump", list(field.period_jump)},
@@ -111,7 +111,7 @@ Json record_of(std::string_view stage, const Result& result) {
                 {"quad_edge_length", result.edge_length}};
     }
     if (stage == "deformation") return deformation_record(result.tensors);
-    if (stage == "field") return field_record(result);
+    if (stage == "field") return cross_field_record(result);
     if (stage == "map") return map_record(result.map);
     return quads_record(result.quads);
 }

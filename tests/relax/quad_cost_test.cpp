@@ -44,6 +44,45 @@ TEST(QuadCost, OfARhombusIsFourSquaredCosines) {
                 4 * std::pow(std::cos(angle), 2) + 4 * 4 * missing * missing, 1e-13);
 }
 
+TEST(CosinesAt, HaveTheGradientsOfFiniteDifferences) {
+    std::mt19937 random(4);
+    constexpr double step = 1e-6;
+    for (int trial = 0; trial < 20; ++trial) {
+        const QuadCorners quad = random_quad(random);
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto cosines = cosines_at(quad, k);
+            for (int axis = 0; axis < 3; ++axis) {
+                QuadCorners ahead = quad;
+                QuadCorners behind = quad;
+                ahead[k][axis] += step;
+                behind[k][axis] -= step;
+                const auto more = cosines_at(ahead, k);
+                const auto less = cosines_at(behind, k);
+                for (std::size_t i = 0; i < cosines.size(); ++i) {
+                    EXPECT_NEAR((more[i].cosine - less[i].cosine) / (2 * step),
+                                cosines[i].gradient[axis], 1e-8);
+                }
+            }
+        }
+    }
+}
+
+TEST(CosinesAt, AreThoseOfTheCost) {
+    // A vertex is part of the angles of its own corner and both next to it: over all vertices each
+    // corner is seen three times.
+    std::mt19937 random(5);
+    for (int trial = 0; trial < 20; ++trial) {
+        const QuadCorners quad = random_quad(random);
+        double sum = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            for (const CornerCosine& corner : cosines_at(quad, k)) {
+                sum += corner.cosine * corner.cosine;
+            }
+        }
+        EXPECT_NEAR(sum, 3 * quad_cost(quad, {-1, 0}), 1e-12);
+    }
+}
+
 TEST(QuadCost, DoesNotChangeUnderSimilarityAndRenumbering) {
     std::mt19937 random(1);
     for (int run = 0; run < 100; ++run) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <random>
 
@@ -24,6 +25,8 @@ TriangleMesh landscape(int n, const std::function<double(double, double)>& heigh
 }
 
 double flat(double, double) { return 0; }
+using Aim = SlidingQuads::Aim;
+
 double hill(double x, double y) { return 0.4 * x * (1 - x) * y * (2 - y); }
 
 /// `k` x `k` quads over the unit square, inner vertices moved by up to `jitter` of a quad.
@@ -119,10 +122,19 @@ Positions sheared(const Positions& V, double by) {
     return result;
 }
 
+/// A spike on the vertex nearest to (0.55, 0.47), which no vertex of a 6 x 6 grid is near.
+Grid spiked(int* tip) {
+    TriangleMesh mesh = landscape(20, flat);
+    (mesh.V.rowwise() - Eigen::RowVector3d(0.55, 0.45, 0)).rowwise().squaredNorm().minCoeff(tip);
+    mesh.V(*tip, 2) = 0.12;
+    return Grid(std::move(mesh), 6, 0);
+}
+
 TEST(RelaxPass, LeavesAGridOfSquaresAlone) {
     const Grid grid(landscape(12, flat), 6, 0);
     SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
-    EXPECT_EQ(sliding.relax_pass(1, {}), 0);
+    EXPECT_EQ(sliding.relax_pass(Aim::squares, 1, {}), 0);
+    EXPECT_EQ(sliding.relax_pass(Aim::right_angles, 1, {}), 0);
     EXPECT_NEAR(sliding.mean_edge_length(), 1.0 / 6, 1e-12);
 }
 
@@ -133,7 +145,8 @@ TEST(RelaxPass, NeverRaisesTheCostOverAllFrames) {
         SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}, {other, 2.5}});
         double before = grid.cost(grid.quads, grid.mesh.V) + 2.5 * grid.cost(grid.quads, other);
         for (int pass = 0; pass < 8; ++pass) {
-            const int moves = sliding.relax_pass(1, {});
+            const Aim aim = pass % 3 == 0 ? Aim::squares : Aim::right_angles;
+            const int moves = sliding.relax_pass(aim, 1, {});
             const double after =
                 grid.cost(sliding.quads(), grid.mesh.V) + 2.5 * grid.cost(sliding.quads(), other);
             EXPECT_LE(after, before + 1e-12);
@@ -150,8 +163,51 @@ TEST(RelaxPass, FindsTheSquaresOfAFlatGrid) {
     const Grid grid(landscape(14, flat), 7, 0.3);
     SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
     const double before = grid.cost(grid.quads, grid.mesh.V);
-    for (int pass = 0; pass < 60; ++pass) sliding.relax_pass(1, {});
+    for (int pass = 0; pass < 60; ++pass) sliding.relax_pass(Aim::squares, 1, {});
     EXPECT_LT(grid.cost(sliding.quads(), grid.mesh.V), 0.05 * before);
+}
+
+TEST(RelaxPass, GoesOnToRightAnglesWhereSquaresAreOutOfReach) {
+    // Frames that shear one way and the other, and a third that pulls squares into rectangles: what
+    // squares ask for is not where angles are best.
+    const Grid grid(landscape(14, hill), 7, 0.3);
+    const Positions other = sheared(grid.mesh.V, 0.6);
+    Positions longer = grid.mesh.V;
+    longer.col(1) *= 2.5;
+    SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}, {other, 1}, {longer, 1}});
+    const auto cost = [&] {
+        return grid.cost(sliding.quads(), grid.mesh.V) + grid.cost(sliding.quads(), other) +
+               grid.cost(sliding.quads(), longer);
+    };
+    for (int pass = 0; pass < 100; ++pass) sliding.relax_pass(Aim::squares, 1, {});
+    ASSERT_EQ(sliding.relax_pass(Aim::squares, 1, {}), 0);
+    const double of_squares = cost();
+    EXPECT_GT(sliding.relax_pass(Aim::right_angles, 1, {}), 0);
+    EXPECT_LT(cost(), of_squares);
+}
+
+TEST(Hold, KeepsTheCornersOfAQuadUntilRelease) {
+    const Grid grid(landscape(14, flat), 7, 0.3);
+    SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+    const int quad = 24;
+    sliding.hold(quad);
+    const auto corner = [&] { return grid.corners(sliding.quads(), grid.mesh.V, quad); };
+    const QuadCorners before = corner();
+    sliding.relax_pass(Aim::squares, 1, {});
+    EXPECT_EQ(corner(), before);
+    sliding.release();
+    sliding.relax_pass(Aim::squares, 1, {});
+    EXPECT_NE(corner(), before);
+}
+
+TEST(Distances, SeeTheSpikeAtItsQuad) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    const std::vector<double> distances = grid.sliding({{grid.mesh.V, 1}}).distances();
+    // Quads of a sixth: the spike at (0.55, 0.45), 0.12 high, stands on the one in row 2, column 3.
+    const auto farthest = std::max_element(distances.begin(), distances.end());
+    EXPECT_EQ(farthest - distances.begin(), 2 * 6 + 3);
+    EXPECT_NEAR(*farthest, 0.12, 1e-12);
 }
 
 TEST(RelaxPass, WeighsTheFrames) {
@@ -160,7 +216,7 @@ TEST(RelaxPass, WeighsTheFrames) {
     const Positions other = sheared(grid.mesh.V, 0.5);
     const auto costs = [&](double weight) {
         SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}, {other, weight}});
-        for (int pass = 0; pass < 20; ++pass) sliding.relax_pass(1, {});
+        for (int pass = 0; pass < 20; ++pass) sliding.relax_pass(Aim::squares, 1, {});
         return std::pair(grid.cost(sliding.quads(), grid.mesh.V),
                          grid.cost(sliding.quads(), other));
     };
@@ -194,14 +250,6 @@ TEST(UnfoldPass, LeavesGoodQuadsAlone) {
     }
 }
 
-/// A spike on the vertex nearest to (0.55, 0.47), which no vertex of a 6 x 6 grid is near.
-Grid spiked(int* tip) {
-    TriangleMesh mesh = landscape(20, flat);
-    (mesh.V.rowwise() - Eigen::RowVector3d(0.55, 0.45, 0)).rowwise().squaredNorm().minCoeff(tip);
-    mesh.V(*tip, 2) = 0.12;
-    return Grid(std::move(mesh), 6, 0);
-}
-
 TEST(CoverExtremities, PutsAVertexOntoASpikeForGood) {
     int tip = -1;
     const Grid grid = spiked(&tip);
@@ -219,7 +267,7 @@ TEST(CoverExtremities, PutsAVertexOntoASpikeForGood) {
     };
     EXPECT_LT(nearest(sliding.quads()), 1e-12);
     EXPECT_EQ(sliding.cover_extremities(0.1, {}), 0);
-    for (int pass = 0; pass < 5; ++pass) sliding.relax_pass(1, {});
+    for (int pass = 0; pass < 5; ++pass) sliding.relax_pass(Aim::squares, 1, {});
     EXPECT_LT(nearest(sliding.quads()), 1e-12);
     EXPECT_GT(grid.least_jacobian(sliding.quads(), grid.mesh.V), 0);
     grid.expect_kept(sliding.quads());

@@ -161,33 +161,19 @@ bool SlidingQuads::move_onto(int v, const SurfacePoint& goal) {
 int SlidingQuads::cover_extremities(double limit, const Context& context) {
     int placed = 0;
     for (const Reference& reference : references_) {
-        placed += cover_extremities_in(reference.frame, limit, context);
+        context.check_cancelled();
+        placed += cover_extremities_in(reference, limit);
     }
     return placed;
 }
 
-int SlidingQuads::cover_extremities_in(const Frame& reference, double limit,
-                                       const Context& context) {
-    const ClosestPoints surface = quads_in(reference);
-    struct Far {
-        double distance;
-        int vertex;
-        int quad;
-    };
-    std::vector<Far> far;
-    int hint = -1;
-    for (int x = 0; x < topology_.vertex_count; ++x) {
-        if (x % 4096 == 0) context.check_cancelled();
-        if (topology_.vertex_half_edge[at(x)] < 0) continue;
-        const ClosestPoint closest = surface.find(reference.input.row(x).transpose(), hint);
-        hint = closest.point.triangle;
-        if (closest.squared_distance > limit * limit)
-            far.push_back({closest.squared_distance, x, hint / 2});
-    }
+int SlidingQuads::cover_extremities_in(const Reference& reference, double limit) {
+    std::vector<Far> far = input_farther_than(limit, reference);
     std::sort(far.begin(), far.end(), [](const Far& a, const Far& b) {
         return a.distance != b.distance ? a.distance > b.distance : a.vertex < b.vertex;
     });
 
+    const Frame& frame = reference.frame;
     int placed = 0;
     std::vector<char> is_busy(at(static_cast<int>(quads_.Q.rows())), 0);
     for (const Far& f : far) {
@@ -196,8 +182,7 @@ int SlidingQuads::cover_extremities_in(const Frame& reference, double limit,
         std::array<std::pair<double, int>, 4> corners;
         for (int k = 0; k < 4; ++k) {
             const int v = quads_.Q(f.quad, k);
-            corners[at(k)] = {
-                (reference.vertices.row(v) - reference.input.row(f.vertex)).squaredNorm(), v};
+            corners[at(k)] = {(frame.vertices.row(v) - frame.input.row(f.vertex)).squaredNorm(), v};
         }
         std::sort(corners.begin(), corners.end());
         const int h = topology_.vertex_half_edge[at(f.vertex)];

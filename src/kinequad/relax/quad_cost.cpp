@@ -49,6 +49,26 @@ double quad_cost(const QuadCorners& p, const FoldBarrier& barrier) {
     return sum;
 }
 
+std::array<CornerCosine, 3> cosines_at(const QuadCorners& p, std::size_t corner) {
+    const Vector3& here = p[corner];
+    const Vector3& next = p[(corner + 1) % 4];
+    const Vector3& opposite = p[(corner + 2) % 4];
+    const Vector3& previous = p[(corner + 3) % 4];
+    const double length = (next - here).norm();
+    const double previous_length = (previous - here).norm();
+    const Vector3 out = (next - here) / length;
+    const Vector3 back = (previous - here) / previous_length;
+    const Vector3 on = (opposite - next).normalized();
+    const Vector3 before = (opposite - previous).normalized();
+    // A unit vector from a corner to here turns with what of a move is across it, over its length.
+    const auto across = [](const Vector3& vector, const Vector3& unit) {
+        return Vector3(vector - vector.dot(unit) * unit);
+    };
+    return {{{out.dot(back), -across(back, out) / length - across(out, back) / previous_length},
+             {-out.dot(on), across(on, out) / length},
+             {-back.dot(before), across(before, back) / previous_length}}};
+}
+
 Vector3 fitted_square_corner(const QuadCorners& p, const Vector3& normal, std::size_t corner) {
     const Vector3 centre = (p[0] + p[1] + p[2] + p[3]) / 4;
     Vector3 spoke = Vector3::Zero();

@@ -25,6 +25,16 @@ double least_scaled_jacobian(const QuadCorners& corners);
 /// folding. 0 for a rectangle; not changed by rigid motion and scale.
 double quad_cost(const QuadCorners& corners, const FoldBarrier& barrier);
 
+/// The cosine of one corner of a quad, and how it changes with a vertex of that quad.
+struct CornerCosine {
+    double cosine = 0;
+    Vector3 gradient = Vector3::Zero();
+};
+
+/// The cosines of those corners whose angle depends on vertex `corner` (0 to 3): its own and its
+/// neighbours', with their gradients by its position. Sides without length give no numbers.
+std::array<CornerCosine, 3> cosines_at(const QuadCorners& corners, std::size_t corner);
+
 /// Where corner `corner` lies on the square that fits the quad best in the plane across `normal`
 /// (unit).
 Vector3 fitted_square_corner(const QuadCorners& corners, const Vector3& normal, std::size_t corner);

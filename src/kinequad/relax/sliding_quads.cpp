@@ -147,23 +147,25 @@ void SlidingQuads::place(int v, const SurfacePoint& point) {
     }
 }
 
-/// Where vertex `v` should go, as a vector in the frame of its triangle: the least-squares answer
-/// to what the frames ask for.
-Vector2 SlidingQuads::wanted_move(int v) const {
-    const SurfacePoint& point = quads_.vertex[at(v)];
-    const auto layout = lay_out_triangle(side_lengths(topology_, metric_, point.triangle));
+/// What a vector in the frame of triangle `t` is in space, in a frame whose vertices are `X`.
+Eigen::Matrix<double, 3, 2> SlidingQuads::embedding(int t, const Positions& X) const {
+    const auto layout = lay_out_triangle(side_lengths(topology_, metric_, t));
     Eigen::Matrix2d sides;
     sides << layout.col(1) - layout.col(0), layout.col(2) - layout.col(0);
-    const Eigen::Matrix2d to_sides = sides.inverse();
+    Eigen::Matrix<double, 3, 2> edges;
+    edges.col(0) = (X.row(F_(t, 1)) - X.row(F_(t, 0))).transpose();
+    edges.col(1) = (X.row(F_(t, 2)) - X.row(F_(t, 0))).transpose();
+    return edges * sides.inverse();
+}
+
+/// Where vertex `v` should go for the squares around it, as a vector in the frame of its triangle:
+/// the least-squares answer to what the frames ask for.
+Vector2 SlidingQuads::move_to_squares(int v) const {
     Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
     Vector2 right = Vector2::Zero();
-    const auto triangle = F_.row(point.triangle);
     for (const Frame& frame : frames_) {
-        Eigen::Matrix<double, 3, 2> edges;
-        edges.col(0) = (frame.input.row(triangle[1]) - frame.input.row(triangle[0])).transpose();
-        edges.col(1) = (frame.input.row(triangle[2]) - frame.input.row(triangle[0])).transpose();
-        const Vector3 normal = edges.col(0).cross(edges.col(1)).normalized();
-        const Eigen::Matrix<double, 3, 2> embedding = edges * to_sides;
+        const auto tangents = embedding(quads_.vertex[at(v)].triangle, frame.input);
+        const Vector3 normal = tangents.col(0).cross(tangents.col(1)).normalized();
         const Vector3 here = frame.vertices.row(v).transpose();
         Vector3 move = Vector3::Zero();
         int count = 0;
@@ -175,8 +177,32 @@ Vector2 SlidingQuads::wanted_move(int v) const {
             move += fitted_square_corner(p, plane, at(c & 3)) - here;
             ++count;
         }
-        matrix += frame.weight * embedding.transpose() * embedding;
-        right += frame.weight * embedding.transpose() * (move / count);
+        matrix += frame.weight * tangents.transpose() * tangents;
+        right += frame.weight * tangents.transpose() * (move / count);
+    }
+    return matrix.inverse() * right;
+}
+
+/// Where vertex `v` should go for right angles in the quads around it: one damped step of Gauss and
+/// Newton on the squared cosines of the corners that it is part of.
+Vector2 SlidingQuads::move_to_right_angles(int v) const {
+    constexpr double damping = 0.1;
+    Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
+    Vector2 right = Vector2::Zero();
+    for (const Frame& frame : frames_) {
+        const auto tangents = embedding(quads_.vertex[at(v)].triangle, frame.input);
+        double inverse_squares = 0;
+        for (const int c : corners_of(v)) {
+            const QuadCorners p = corners_in(frame, c / 4);
+            const auto k = at(c & 3);
+            for (const CornerCosine& corner : cosines_at(p, k)) {
+                const Vector2 slope = tangents.transpose() * corner.gradient;
+                matrix += frame.weight * slope * slope.transpose();
+                right -= frame.weight * corner.cosine * slope;
+            }
+            inverse_squares += 1 / (p[(k + 1) % 4] - p[k]).squaredNorm();
+        }
+        matrix += damping * frame.weight * inverse_squares * tangents.transpose() * tangents;
     }
     return matrix.inverse() * right;
 }
@@ -216,8 +242,8 @@ double SlidingQuads::shortest_edge(int v) const {
     return shortest;
 }
 
-bool SlidingQuads::improve(int v, double distance_limit) {
-    const Vector2 move = wanted_move(v);
+bool SlidingQuads::improve(int v, Aim aim, double distance_limit) {
+    const Vector2 move = aim == Aim::squares ? move_to_squares(v) : move_to_right_angles(v);
     const SurfacePoint before = quads_.vertex[at(v)];
     const Positions& X = frames_[0].vertices;
     const double size = (X.row(neighbour(*corners_of(v).begin(), 1)) - X.row(v)).norm();
@@ -238,7 +264,7 @@ bool SlidingQuads::improve(int v, double distance_limit) {
     return false;
 }
 
-int SlidingQuads::relax_pass(double distance_limit, const Context& context) {
+int SlidingQuads::relax_pass(Aim aim, double distance_limit, const Context& context) {
     // Distances are slow: they are asked for only where quads are about to leave the surface.
     is_watched_.resize(at(static_cast<int>(quads_.Q.rows())));
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
@@ -247,31 +273,41 @@ int SlidingQuads::relax_pass(double distance_limit, const Context& context) {
     int moves = 0;
     for (int v = 0; v < static_cast<int>(quads_.vertex.size()); ++v) {
         if (v % 512 == 0) context.check_cancelled();
-        if (is_pinned_[at(v)] == 0) moves += improve(v, distance_limit) ? 1 : 0;
+        if (is_pinned_[at(v)] == 0) moves += improve(v, aim, distance_limit) ? 1 : 0;
     }
     return moves;
 }
 
-ClosestPoints SlidingQuads::quads_in(const Frame& frame) const {
-    return {frame.vertices, cut_quads(quads_.Q, frame.vertices)};
+std::vector<SlidingQuads::Far> SlidingQuads::input_farther_than(double distance,
+                                                                const Reference& reference) const {
+    const Frame& frame = reference.frame;
+    const ClosestPoints quads(frame.vertices, cut_quads(quads_.Q, frame.vertices));
+    std::vector<Far> far;
+    int hint = -1;
+    for (int x = 0; x < topology_.vertex_count; ++x) {
+        if (topology_.vertex_half_edge[at(x)] < 0) continue;
+        const ClosestPoint closest = quads.find(frame.input.row(x).transpose(), hint);
+        hint = closest.point.triangle;
+        if (closest.squared_distance > distance * distance) {
+            far.push_back({std::sqrt(closest.squared_distance), x, hint / 2});
+        }
+    }
+    return far;
 }
 
-double SlidingQuads::largest_distance() const {
-    double farthest = 0;
-    for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-        farthest = std::max(farthest, distance_of(q));
-    }
+std::vector<double> SlidingQuads::distances() const {
+    std::vector<double> farthest(at(static_cast<int>(quads_.Q.rows())));
+    for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) farthest[at(q)] = distance_of(q);
     for (const Reference& reference : references_) {
-        const ClosestPoints quads = quads_in(reference.frame);
-        int hint = -1;
-        for (int x = 0; x < topology_.vertex_count; ++x) {
-            if (topology_.vertex_half_edge[at(x)] < 0) continue;
-            const ClosestPoint closest = quads.find(reference.frame.input.row(x).transpose(), hint);
-            hint = closest.point.triangle;
-            farthest = std::max(farthest, std::sqrt(closest.squared_distance));
+        for (const Far& far : input_farther_than(0, reference)) {
+            farthest[at(far.quad)] = std::max(farthest[at(far.quad)], far.distance);
         }
     }
     return farthest;
+}
+
+void SlidingQuads::hold(int quad) {
+    for (int k = 0; k < 4; ++k) is_pinned_[at(quads_.Q(quad, k))] = 1;
 }
 
 int SlidingQuads::count_folded() const {

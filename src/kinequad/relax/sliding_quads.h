@@ -27,6 +27,15 @@ struct SampledFrame {
 /// and those that `cover_extremities` has put in place, stay.
 class SlidingQuads {
 public:
+    double total() const {
+        double s = 0, w = 0;
+        for (const Frame& f : frames_)
+            for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
+                s += f.weight * quad_cost(corners_in(f, q), FoldBarrier{-1, 0});
+                w += 4 * f.weight;
+            }
+        return std::sqrt(s / w) * 57.3;
+    }
     /// `F` m x 3 triangles of the input; the first `reference_count` of `frames`, at least one, are
     /// references. `topology`, `metric` and `F` have to outlive this.
     SlidingQuads(const QuadMesh& quads, const Topology& topology, const IntrinsicMetric& metric,
@@ -39,20 +48,30 @@ public:
     /// Vertices (v, nonzero) that stay where they are, beside those on the boundary.
     void pin(const std::vector<char>& vertices);
 
-    /// Moves every vertex once towards the squares that fit the quads around it best, where that
-    /// lowers their cost over all frames. Returns the number of moves.
+    /// What the quads around a vertex should become.
+    enum class Aim {
+        squares,       ///< of equal sides too: evens out a map that is far from the surface
+        right_angles,  ///< the least of the cost itself, once quads are close to squares
+    };
+
+    /// Moves every vertex once towards the `aim` of the quads around it, where that lowers their
+    /// cost over all frames. Returns the number of moves.
     /// No move takes a quad farther than `distance_limit` (units of the input) from the input in a
     /// reference.
-    int relax_pass(double distance_limit, const Context& context);
+    int relax_pass(Aim aim, double distance_limit, const Context& context);
 
     /// Tries moves of the vertices up to `reach` quads around every quad whose scaled Jacobian in
     /// a reference is below `worst_jacobian`, and keeps what opens it towards `safe_jacobian`.
     /// Returns the number of quads still folded there.
     int unfold_pass(double worst_jacobian, double safe_jacobian, int reach, const Context& context);
 
-    /// Largest distance between the two surfaces in the references, in units of the input, seen
-    /// from the middles of quads and edges and from the vertices of the input.
-    double largest_distance() const;
+    /// Distance between the two surfaces at every quad (q), at most over the references, in units
+    /// of the input: seen from the middles of the quad and its edges, and from the vertices of the
+    /// input that are closest to it.
+    std::vector<double> distances() const;
+
+    /// Keeps the corners of a quad where they are until `release`.
+    void hold(int quad);
 
     /// Number of quads folded in a reference.
     int count_folded() const;
@@ -67,7 +86,7 @@ public:
     /// Puts all vertices back to where they were.
     void restore(const State& state);
 
-    /// Sets free what `cover_extremities` has put in place.
+    /// Sets free what `cover_extremities` has put in place and `hold` has kept.
     void release();
 
     /// Puts a quad vertex onto every vertex of the input that is farther than `limit` (units of the
@@ -105,22 +124,30 @@ private:
         ClosestPoints surface;
     };
 
+    /// A vertex of the input and the quad that is closest to it.
+    struct Far {
+        double distance;
+        int vertex;
+        int quad;
+    };
+    std::vector<Far> input_farther_than(double distance, const Reference& reference) const;
+
     Range corners_of(int v) const;
     int neighbour(int corner, int k) const;
     QuadCorners corners_in(const Frame& frame, int quad) const;
     double cost_around(int v, const FoldBarrier& barrier) const;
     double least_jacobian_around(int v) const;
-    Vector2 wanted_move(int v) const;
+    Eigen::Matrix<double, 3, 2> embedding(int t, const Positions& X) const;
+    Vector2 move_to_squares(int v) const;
+    Vector2 move_to_right_angles(int v) const;
     double least_jacobian_of(int quad) const;
     SurfacePoint walked(int v, const SurfacePoint& start, const Vector2& move) const;
     double shortest_edge(int v) const;
     double watched_distance(int v) const;
-    bool improve(int v, double distance_limit);
+    bool improve(int v, Aim aim, double distance_limit);
     void search_around(int v, const std::function<double()>& cost);
     bool move_onto(int v, const SurfacePoint& goal);
-    /// The quads in a frame as triangles: 2q and 2q + 1 of quad q.
-    ClosestPoints quads_in(const Frame& frame) const;
-    int cover_extremities_in(const Frame& frame, double limit, const Context& context);
+    int cover_extremities_in(const Reference& reference, double limit);
     std::vector<int> vertices_around(int quad, int reach) const;
     double distance_of(int quad) const;
     void place(int v, const SurfacePoint& point);

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "kinequad/core/error.h"
 
@@ -21,14 +22,54 @@ void expect_refused(const Options& options, const std::string& option) {
     }
 }
 
-TEST(Options, DefaultsDependOnTheRecipe) {
+std::vector<Options> recipes(const Options& options, bool has_landmarks = false) {
+    return list_recipes(resolve_options(options, 10, false, has_landmarks));
+}
+
+TEST(Options, DefaultsDependOnTheMethod) {
     Options options;
-    EXPECT_EQ(resolve_options(options, 10, false, false).alpha,
-              default_alpha(CrossFieldMethod::convex));
     EXPECT_EQ(resolve_options(options, 10, false, false).metric, MetricChoice::mean);
-    options.field = CrossFieldMethod::paper;
-    EXPECT_EQ(resolve_options(options, 10, false, false).alpha,
-              default_alpha(CrossFieldMethod::paper));
+    for (const CrossFieldMethod method : {CrossFieldMethod::convex, CrossFieldMethod::paper}) {
+        options.field = method;
+        ASSERT_EQ(recipes(options).size(), 1U);
+        EXPECT_EQ(recipes(options)[0].alpha, default_alpha(method));
+    }
+}
+
+TEST(Recipes, AreSeveralWhereBothSidesShareTheQuadsAndNothingIsGiven) {
+    for (const SymmetryMode mode : {SymmetryMode::field, SymmetryMode::exact}) {
+        Options options;
+        options.symmetry = mode;
+        EXPECT_GT(recipes(options).size(), 1U);
+        options.alpha = 0.3;
+        options.symmetrisation = Symmetrisation::term;
+        const std::vector<Options> given = recipes(options);
+        ASSERT_EQ(given.size(), 1U);
+        EXPECT_EQ(given[0].alpha, 0.3);
+        EXPECT_EQ(given[0].symmetrisation, Symmetrisation::term);
+    }
+    // Either way to a symmetric field is tried with the influence that was given.
+    Options options;
+    options.symmetry = SymmetryMode::field;
+    options.alpha = 0.3;
+    const std::vector<Options> both = recipes(options);
+    ASSERT_EQ(both.size(), 2U);
+    EXPECT_NE(both[0].symmetrisation, both[1].symmetrisation);
+    EXPECT_EQ(both[1].alpha, 0.3);
+}
+
+TEST(Recipes, LeaveNothingEmptyAndKeepWhatIsGiven) {
+    Options options;
+    options.singularity_cost = 0.3;
+    options.vertices = 1234;
+    for (const SymmetryMode mode : {SymmetryMode::none, SymmetryMode::field, SymmetryMode::exact}) {
+        options.symmetry = mode;
+        for (const Options& recipe : recipes(options)) {
+            EXPECT_TRUE(recipe.alpha && recipe.symmetrisation && recipe.metric);
+            EXPECT_EQ(recipe.singularity_cost, 0.3);
+            EXPECT_EQ(recipe.vertices, 1234);
+        }
+    }
 }
 
 TEST(Options, LandmarksAskForMirroredQuads) {
@@ -40,10 +81,11 @@ TEST(Options, LandmarksAskForMirroredQuads) {
 }
 
 TEST(Options, ThePaperAveragesOverOrbits) {
-    EXPECT_EQ(resolve_options({}, 10, false, true).symmetrisation, Symmetrisation::term);
     Options options;
     options.field = CrossFieldMethod::paper;
-    EXPECT_EQ(resolve_options(options, 10, false, true).symmetrisation, Symmetrisation::orbits);
+    options.symmetry = SymmetryMode::field;
+    ASSERT_EQ(recipes(options).size(), 1U);
+    EXPECT_EQ(recipes(options)[0].symmetrisation, Symmetrisation::orbits);
     options.symmetrisation = Symmetrisation::term;
     expect_refused(options, "--symmetrise");
 }

@@ -1,5 +1,7 @@
 #include "kinequad/mesh/refined_mesh.h"
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <numeric>
 
 namespace kinequad {
@@ -29,6 +31,41 @@ SurfacePoint point_of_input(const RefinedMesh& mesh, const SurfacePoint& point) 
     const Eigen::Index corner = 3 * static_cast<Eigen::Index>(point.triangle);
     const Vector3 sum = mesh.barycentric.middleRows<3>(corner).transpose() * point.barycentric;
     return {mesh.parent[static_cast<std::size_t>(point.triangle)], sum / sum.sum()};
+}
+
+RefinementSearch::RefinementSearch(const RefinedMesh& mesh) : mesh_(mesh) {
+    order_.resize(mesh.parent.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    const auto parent_of = [&](int t) { return mesh.parent[static_cast<std::size_t>(t)]; };
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](int a, int b) { return parent_of(a) < parent_of(b); });
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        while (static_cast<int>(start_.size()) <= parent_of(order_[i])) {
+            start_.push_back(static_cast<int>(i));
+        }
+    }
+    start_.push_back(static_cast<int>(order_.size()));
+}
+
+SurfacePoint RefinementSearch::find(const SurfacePoint& point) const {
+    constexpr double rounding = 1e-9;
+    const auto parent = static_cast<std::size_t>(point.triangle);
+    SurfacePoint found;
+    for (int i = start_[parent]; i < start_[parent + 1]; ++i) {
+        const int t = order_[static_cast<std::size_t>(i)];
+        const Eigen::Matrix3d corners =
+            mesh_.barycentric.middleRows<3>(3 * static_cast<Eigen::Index>(t)).transpose();
+        const Vector3 barycentric = corners.inverse() * point.barycentric;
+        if (!barycentric.allFinite()) continue;
+        if (found.triangle < 0 || barycentric.minCoeff() > found.barycentric.minCoeff()) {
+            found = {t, barycentric};
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        if (found.barycentric[k] < rounding) found.barycentric[k] = 0;
+    }
+    found.barycentric /= found.barycentric.sum();
+    return found;
 }
 
 RefinedMesh as_refinement_of_input(const RefinedMesh& outer, const RefinedMesh& inner) {

@@ -31,6 +31,20 @@ int side_of_parent(const RefinedMesh& mesh, int h);
 /// A point of a refined mesh as a point of the input.
 SurfacePoint point_of_input(const RefinedMesh& mesh, const SurfacePoint& point);
 
+/// Finds points of the input in a refinement of the whole of it, which has to outlive this.
+class RefinementSearch {
+public:
+    explicit RefinementSearch(const RefinedMesh& mesh);
+    /// A point of the input as a point of the refined mesh: on a side or a corner of its triangle
+    /// (barycentric coordinates exactly 0) where it lies there but for rounding.
+    SurfacePoint find(const SurfacePoint& point) const;
+
+private:
+    const RefinedMesh& mesh_;
+    std::vector<int> order_;  ///< triangles of the refined mesh, those of one parent together
+    std::vector<int> start_;  ///< where those of a triangle of the input begin in `order_`
+};
+
 /// A refinement `inner` of the refined mesh `outer`, as a refinement of the input.
 RefinedMesh as_refinement_of_input(const RefinedMesh& outer, const RefinedMesh& inner);
 

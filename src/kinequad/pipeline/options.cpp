@@ -15,32 +15,16 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape, b
     if (!options.symmetry) {
         options.symmetry = has_landmarks ? SymmetryMode::exact : SymmetryMode::none;
     }
-    const bool is_paper = options.field == CrossFieldMethod::paper;
-    if (!options.symmetrisation) {
-        options.symmetrisation = is_paper ? Symmetrisation::orbits : Symmetrisation::term;
-    }
-    check(!is_paper || options.symmetrisation == Symmetrisation::orbits,
+    check(options.field != CrossFieldMethod::paper ||
+              options.symmetrisation.value_or(Symmetrisation::orbits) == Symmetrisation::orbits,
           "--symmetrise term: needs --field convex; the paper averages over orbits");
-    const bool is_twice_solved =
-        options.symmetry == SymmetryMode::field && options.symmetrisation == Symmetrisation::orbits;
-    if (!options.alpha) {
-        // Symmetric quads cannot follow what the two sides do differently: less is asked of them.
-        const double symmetric = is_twice_solved ? 0.2 : 0.1;
-        options.alpha = is_paper || options.symmetry == SymmetryMode::none
-                            ? default_alpha(options.field)
-                            : symmetric;
-    }
-    if (!options.singularity_cost) {
-        options.singularity_cost = options.symmetry == SymmetryMode::exact ? 0.1
-                                   : is_twice_solved                       ? 0.2
-                                                                           : 0.08;
-    }
+    const double alpha = options.alpha.value_or(default_alpha(options.field));
     if (!options.metric) {
-        options.metric = *options.alpha == 0 ? MetricChoice::reference : MetricChoice::mean;
+        options.metric = alpha == 0 ? MetricChoice::reference : MetricChoice::mean;
     }
     // Written so that a NaN fails.
-    check(*options.alpha >= 0 && *options.alpha < 1,
-          fmt::format("--alpha {}: has to be at least 0 and below 1", *options.alpha));
+    check(alpha >= 0 && alpha < 1,
+          fmt::format("--alpha {}: has to be at least 0 and below 1", alpha));
     check(std::isfinite(options.edge_length) && options.edge_length >= 0,
           fmt::format("--edge-length {}: has to be positive, or 0 to go by --vertices",
                       options.edge_length));
@@ -48,8 +32,9 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape, b
           fmt::format("--vertices {}: has to be between 8 and 100000000", options.vertices));
     check(std::isfinite(options.curvature) && options.curvature >= 0,
           fmt::format("--curvature {}: has to be at least 0", options.curvature));
-    check(std::isfinite(*options.singularity_cost) && *options.singularity_cost >= 0,
-          fmt::format("--singularity-cost {}: has to be at least 0", *options.singularity_cost));
+    const double cost = options.singularity_cost.value_or(0);
+    check(std::isfinite(cost) && cost >= 0,
+          fmt::format("--singularity-cost {}: has to be at least 0", cost));
     check(options.feature_angle >= 0 && options.feature_angle <= 180,
           fmt::format("--feature-angle {}: has to be between 0 and 180 degrees",
                       options.feature_angle));
@@ -63,6 +48,39 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape, b
                           frame_count - 1));
     }
     return options;
+}
+
+std::vector<Options> list_recipes(const Options& options) {
+    const bool is_paper = options.field == CrossFieldMethod::paper;
+    const bool is_whole = options.symmetry == SymmetryMode::field;
+    std::vector<Symmetrisation> symmetrisations = {
+        options.symmetrisation.value_or(is_paper ? Symmetrisation::orbits : Symmetrisation::term)};
+    if (is_whole && !is_paper && !options.symmetrisation) {
+        symmetrisations.push_back(Symmetrisation::orbits);
+    }
+    std::vector<Options> recipes;
+    for (const Symmetrisation symmetrisation : symmetrisations) {
+        const bool is_twice_solved = is_whole && symmetrisation == Symmetrisation::orbits;
+        std::vector<double> alphas = {default_alpha(options.field)};
+        // What serves both sides at once is a matter of how differently they move.
+        if (!is_paper && options.symmetry != SymmetryMode::none) {
+            alphas = is_twice_solved ? std::vector{0.4, 0.5}
+                     : is_whole      ? std::vector{0.05}
+                                     : std::vector{0.1, 0.35};
+        }
+        if (options.alpha) alphas = {*options.alpha};
+        const double cost = options.symmetry == SymmetryMode::exact ? 0.1
+                            : is_twice_solved                       ? 0.2
+                                                                    : 0.08;
+        for (const double alpha : alphas) {
+            Options recipe = options;
+            recipe.symmetrisation = symmetrisation;
+            recipe.alpha = alpha;
+            recipe.singularity_cost = options.singularity_cost.value_or(cost);
+            recipes.push_back(recipe);
+        }
+    }
+    return recipes;
 }
 
 }  // namespace kinequad

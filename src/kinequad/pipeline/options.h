@@ -38,10 +38,11 @@ struct Options {
     double edge_length = 0;  ///< wanted quad edge length in units of the input; 0: from `vertices`
     /// Recipe of the cross field; `paper` is the energy and solver of Du and Tu.
     CrossFieldMethod field = CrossFieldMethod::convex;
-    /// Empty: `orbits` with the paper's field, else `term`.
+    /// Empty: `orbits` with the paper's field, else what is better for the input.
     std::optional<Symmetrisation> symmetrisation;
-    /// Influence of the animation on the cross field; empty: what was measured best with `field`
-    /// and `symmetry`. With 0 the run sees a single pose, the reference frame.
+    /// Influence of the animation on the cross field; empty: what was measured best with `field`,
+    /// and with symmetry what is best for the input. With 0 the run sees a single pose, the
+    /// reference frame.
     std::optional<double> alpha;
     double curvature = 0.1;  ///< influence of the curvature on the cross field (`convex` only)
     /// Edges across which the reference frame turns by more than this are features, which become
@@ -50,7 +51,7 @@ struct Options {
     /// Further features: pairs of vertices of the input that an edge joins.
     std::vector<std::array<int, 2>> features = {};
     /// Energy that a singularity may cost, in rad^2 (`convex` only); empty: what was measured best
-    /// with `symmetry`.
+    /// with `symmetry` and `symmetrisation`.
     std::optional<double> singularity_cost;
     /// Empty: `mean`, and `reference` where `alpha` is 0, or where quads for the mean would shear
     /// the reference for little (without symmetry, `convex` only).
@@ -66,9 +67,14 @@ inline bool is_single_pose(const Options& options) {
     return options.alpha == 0.0 && options.metric == MetricChoice::reference;
 }
 
-/// `options` with empty fields filled in by their defaults, for an input with or without landmarks.
-/// Throws `InputError` (usage) where a
-/// value is out of its range, `reference` for `frame_count` frames and `has_rest_shape`.
+/// `options` with empty fields filled in by their defaults, for an input with or without landmarks,
+/// but for those of the cross field that `list_recipes` leaves to the input. Throws `InputError`
+/// (usage) where a value is out of its range, `reference` for `frame_count` frames and
+/// `has_rest_shape`.
 Options resolve_options(Options options, int frame_count, bool has_rest_shape, bool has_landmarks);
+
+/// The ways to solve the cross field that are worth a try where `options`, resolved, leave a
+/// choice: `options` with all empty fields filled in, at least once. docs/pipeline.md
+std::vector<Options> list_recipes(const Options& options);
 
 }  // namespace kinequad

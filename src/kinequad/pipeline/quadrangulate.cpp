@@ -191,8 +191,12 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     const SolvedSurface solved{frames, topology, metric, reference};
     if (result.options.symmetry == SymmetryMode::none) {
         const std::vector<DomainView> views = {{frames, reference, metric}};
-        solve_field(views, result, context, finish_stage);
-        result.quads = solve_quads(views, result, context, finish_stage);
+        result.options = list_recipes(result.options).front();
+        measure_deformation(views, result, context, finish_stage);
+        solve_field(result, context, finish_stage);
+        const QuadMesh quads = map_and_extract(views, result, context, finish_stage);
+        result.quads = relax_on_domain(result.domain, views, result.map.feature_edges, quads,
+                                       result.options, context);
     } else {
         require_symmetric_detail(source, topology);
         result.symmetry = find_symmetry(frames, metric, landmarks, reference, context);

@@ -24,8 +24,8 @@
 namespace kinequad {
 namespace {
 
-DeformationTensors measure_deformation(const std::vector<DomainView>& views, const Result& result,
-                                       const Context& context) {
+DeformationTensors sum_of_tensors(const std::vector<DomainView>& views, const Result& result,
+                                  const Context& context) {
     DeformationOptions options;
     options.edge_length = result.edge_length;
     std::optional<DeformationTensors> sum;
@@ -173,11 +173,36 @@ QuadMesh separate_from_curve(QuadMesh quads, const Domain& domain,
         });
 }
 
-/// The map and its quads. Where the quads come out too coarse for the surface, such as two edges
-/// between the same two vertices, both are made again with shorter edges.
+}  // namespace
+
+IntrinsicMetric choose_metric(const FrameSource& frames, const Topology& topology,
+                              const Positions& reference, const Options& options,
+                              const Context& context) {
+    return widen_flat_triangles(topology, options.metric == MetricChoice::reference
+                                              ? metric_of(topology, reference)
+                                              : compute_mean_metric(frames, topology, context));
+}
+
+void measure_deformation(const std::vector<DomainView>& views, Result& result,
+                         const Context& context, const StageEnd& finish_stage) {
+    const RefinedMesh& surface = result.domain.surface.mesh;
+    result.domain.feature_edges =
+        edges_along(result.domain.topology,
+                    result.refined ? as_refinement_of_input(*result.refined, surface) : surface,
+                    result.topology, result.features);
+    result.tensors = sum_of_tensors(views, result, context);
+    finish_stage("deformation");
+}
+
+void solve_field(Result& result, const Context& context, const StageEnd& finish_stage) {
+    result.field = make_cross_field(result, context);
+    finish_stage("field");
+}
+
 QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
-                         const Context& context,
-                         const std::function<void(const char* stage)>& finish_stage) {
+                         const Context& context, const StageEnd& finish_stage) {
+    // Where the quads come out too coarse for the surface, such as two edges between the same two
+    // vertices, map and quads are made again with shorter edges.
     constexpr int most_attempts = 5;
     constexpr double shortening = 0.8;
     const Domain& domain = result.domain;
@@ -194,6 +219,7 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
             QuadMesh quads = extract_quads(result.map, context);
             if (domain.is_half()) quads = separate_from_curve(std::move(quads), domain, views);
             require_valid(verify_quad_mesh(quads, domain.topology));
+            finish_stage("extraction");
             return quads;
         } catch (const Error& error) {
             const bool can_be_denser = error.code() == ExitCode::no_grid_map ||
@@ -208,56 +234,27 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
     }
 }
 
-}  // namespace
-
-IntrinsicMetric choose_metric(const FrameSource& frames, const Topology& topology,
-                              const Positions& reference, const Options& options,
-                              const Context& context) {
-    return widen_flat_triangles(topology, options.metric == MetricChoice::reference
-                                              ? metric_of(topology, reference)
-                                              : compute_mean_metric(frames, topology, context));
-}
-
-void solve_field(const std::vector<DomainView>& views, Result& result, const Context& context,
-                 const std::function<void(const char* stage)>& finish_stage) {
-    const RefinedMesh& surface = result.domain.surface.mesh;
-    result.domain.feature_edges =
-        edges_along(result.domain.topology,
-                    result.refined ? as_refinement_of_input(*result.refined, surface) : surface,
-                    result.topology, result.features);
-    result.tensors = measure_deformation(views, result, context);
-    finish_stage("deformation");
-    result.field = make_cross_field(result, context);
-    finish_stage("field");
-}
-
-QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const Context& context,
-                     const std::function<void(const char* stage)>& finish_stage) {
-    const Domain& domain = result.domain;
-    QuadMesh quads = map_and_extract(views, result, context, finish_stage);
-    finish_stage("extraction");
-
-    if (result.options.relax_rounds > 0) {
-        RelaxOptions relax_options;
-        relax_options.rounds = result.options.relax_rounds;
-        const bool is_frame = result.options.reference != Options::rest_shape;
-        relax_options.reference_frame = is_single_pose(result.options) ? std::optional<int>(0)
-                                        : is_frame ? std::optional<int>(result.options.reference)
-                                                   : std::nullopt;
-        relax_options.line_edges = domain.curve_edges();
-        const std::vector<int> boundary = boundary_edges(domain.topology);
-        for (const std::vector<int>& lines : {boundary, result.map.feature_edges}) {
-            relax_options.line_edges.insert(relax_options.line_edges.end(), lines.begin(),
-                                            lines.end());
-        }
-        std::vector<RelaxView> relax_views;
-        relax_views.reserve(views.size());
-        for (const DomainView& view : views) relax_views.push_back({view.frames, view.reference});
-        quads =
-            relax_quads(quads, relax_views, domain.topology, domain.metric, relax_options, context);
-        require_valid(verify_quad_mesh(quads, domain.topology));
+QuadMesh relax_on_domain(const Domain& domain, const std::vector<DomainView>& views,
+                         const std::vector<int>& feature_edges, const QuadMesh& quads,
+                         const Options& run, const Context& context) {
+    if (run.relax_rounds == 0) return quads;
+    RelaxOptions options;
+    options.rounds = run.relax_rounds;
+    options.reference_frame = is_single_pose(run) ? std::optional<int>(0)
+                              : run.reference != Options::rest_shape
+                                  ? std::optional<int>(run.reference)
+                                  : std::nullopt;
+    options.line_edges = domain.curve_edges();
+    for (const std::vector<int>& lines : {boundary_edges(domain.topology), feature_edges}) {
+        options.line_edges.insert(options.line_edges.end(), lines.begin(), lines.end());
     }
-    return quads;
+    std::vector<RelaxView> relax_views;
+    relax_views.reserve(views.size());
+    for (const DomainView& view : views) relax_views.push_back({view.frames, view.reference});
+    QuadMesh relaxed =
+        relax_quads(quads, relax_views, domain.topology, domain.metric, options, context);
+    require_valid(verify_quad_mesh(relaxed, domain.topology));
+    return relaxed;
 }
 
 }  // namespace kinequad

@@ -24,17 +24,30 @@ struct DomainView {
     IntrinsicMetric metric;
 };
 
-/// Solves the cross field of `result.domain`: tensors and field, verified; with the symmetry
-/// `field` twice, the second time drawn to the first one's average over the orbits of
-/// `result.symmetry`, whose triangles are the domain's then. Fills in `tensors`, `field` and the
-/// domain's features, and calls `finish_stage` after each stage. Throws as `quadrangulate`.
-void solve_field(const std::vector<DomainView>& views, Result& result, const Context& context,
-                 const std::function<void(const char* stage)>& finish_stage);
+/// Called after each stage with its name.
+using StageEnd = std::function<void(const char* stage)>;
 
-/// Makes quads of `result.field` over `result.domain`: map, extraction and relaxation, each
-/// verified. Fills in `map` and calls `finish_stage` after each stage. Returns the quads, whose
-/// vertices are points of the domain's triangles. Throws as `quadrangulate`.
-QuadMesh solve_quads(const std::vector<DomainView>& views, Result& result, const Context& context,
-                     const std::function<void(const char* stage)>& finish_stage);
+/// Measures the deformation of the views of `result.domain`. Fills in `tensors` and the domain's
+/// features. Throws as `quadrangulate`.
+void measure_deformation(const std::vector<DomainView>& views, Result& result,
+                         const Context& context, const StageEnd& finish_stage);
+
+/// Solves the cross field of `result.domain` by `result.options`, a recipe, and verifies it; with
+/// the symmetry `field` and `orbits` twice, the second time drawn to the first one's average over
+/// the orbits of `result.symmetry`, whose triangles are the domain's then. Fills in `field`. Throws
+/// as `quadrangulate`.
+void solve_field(Result& result, const Context& context, const StageEnd& finish_stage);
+
+/// Makes quads of `result.field` over `result.domain`: map and extraction, each verified. Fills in
+/// `map`. Returns the quads, whose vertices are points of the domain's triangles. Throws as
+/// `quadrangulate`.
+QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
+                         const Context& context, const StageEnd& finish_stage);
+
+/// Slides the vertices of `quads` over `domain` as `run` asks for, those on its boundary, its curve
+/// and `feature_edges` along these, and verifies what comes of it. Throws as `quadrangulate`.
+QuadMesh relax_on_domain(const Domain& domain, const std::vector<DomainView>& views,
+                         const std::vector<int>& feature_edges, const QuadMesh& quads,
+                         const Options& run, const Context& context);
 
 }  // namespace kinequad

@@ -1,5 +1,6 @@
 #include "kinequad/pipeline/stage_clock.h"
 
+#include <algorithm>
 #include <ctime>
 #include <utility>
 
@@ -14,8 +15,11 @@ StageClock::StageClock() : wall_(std::chrono::steady_clock::now()), cpu_(process
 void StageClock::finish_stage(std::string stage, std::vector<StageTime>& times) {
     const auto wall = std::chrono::steady_clock::now();
     const double cpu = process_cpu_seconds();
-    times.push_back(
-        {std::move(stage), std::chrono::duration<double>(wall - wall_).count(), cpu - cpu_});
+    auto time = std::find_if(times.begin(), times.end(),
+                             [&](const StageTime& earlier) { return earlier.stage == stage; });
+    if (time == times.end()) time = times.insert(time, StageTime{std::move(stage)});
+    time->wall_seconds += std::chrono::duration<double>(wall - wall_).count();
+    time->cpu_seconds += cpu - cpu_;
     wall_ = wall;
     cpu_ = cpu;
 }

@@ -17,7 +17,8 @@ struct StageTime {
 class StageClock {
 public:
     StageClock();
-    /// Adds the time since construction or the last call to `times`, under the name `stage`.
+    /// Adds the time since construction or the last call to `times`, under the name `stage`, to
+    /// what is there by that name.
     void finish_stage(std::string stage, std::vector<StageTime>& times);
 
 private:

@@ -11,7 +11,9 @@
 #include "kinequad/core/index.h"
 #include "kinequad/extract/mirrored_quads.h"
 #include "kinequad/field/refine_cross_field.h"
+#include "kinequad/mesh/feature_edges.h"
 #include "kinequad/mesh/split_along_level.h"
+#include "kinequad/pipeline/best_recipe.h"
 #include "kinequad/pipeline/solve_quads.h"
 #include "kinequad/relax/relax_quads.h"
 #include "kinequad/symmetry/even_out_half.h"
@@ -22,8 +24,6 @@ namespace kinequad {
 namespace {
 
 constexpr int largest_evening_rounds = 8;
-/// Share of an edge within which vertices come to lie on the stationary curve.
-constexpr double curve_snap_share = 0.2;
 
 /// Shapes in which the two sides are matched: the reference and some frames, evenly chosen.
 std::vector<Positions> matching_shapes(const FrameSource& frames, const Positions& reference) {
@@ -87,6 +87,30 @@ bool are_alike(const DomainView& one, const DomainView& other, const Topology& t
     return true;
 }
 
+/// The surface with the stationary curve inserted.
+class CutSurface {
+public:
+    CutSurface(const SolvedSurface& surface, const LevelSplit& split, const Result& run,
+               const Context& context)
+        : frames_(surface.frames, split.mesh.F, vertex_points(split.mesh)),
+          reference_(frames_.carry(surface.reference)) {
+        domain_.surface.mesh = split.mesh;
+        domain_.surface.is_on_curve = split.is_on_level;
+        domain_.topology = build_topology(split.mesh.F, split.mesh.vertex_count);
+        domain_.metric = choose_metric(frames_, domain_.topology, reference_, run.options, context);
+        domain_.feature_edges =
+            edges_along(domain_.topology, split.mesh, run.topology, run.features);
+    }
+
+    const Domain& domain() const { return domain_; }
+    DomainView view() const { return {frames_, reference_, domain_.metric}; }
+
+private:
+    CarriedSequence frames_;
+    Positions reference_;
+    Domain domain_;
+};
+
 /// The quads of both sides, from those of the half. Unless the sides `are_tied`, as where they are
 /// alike, each finds its own place on the surface.
 QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const QuadMesh& half,
@@ -105,16 +129,15 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
     }
     const std::vector<char> is_on_curve = curve_vertices(half, result.domain);
     QuadMesh whole = join_mirrored_quads(on_whole, mirrored, is_on_curve);
-    if (result.options.relax_rounds > 0 && !are_tied) {
-        const IntrinsicMetric lengths = metric_of(topology, reference);
-        RelaxOptions options;
-        options.line_edges = boundary_edges(topology);
-        options.rounds = result.options.relax_rounds;
-        for (std::size_t v = 0; v < whole.vertex.size(); ++v) {
-            options.pinned.push_back(whole.mirror[v] == static_cast<int>(v) ? 1 : 0);
-        }
-        whole.vertex =
-            relax_quads(whole, {{frames, reference}}, topology, lengths, options, context).vertex;
+    if (!are_tied) {
+        const LevelSplit split = insert_stationary_curve(topology, metric, result.symmetry->map);
+        const CutSurface cut(surface, split, result, context);
+        const RefinementSearch search(split.mesh);
+        for (SurfacePoint& point : whole.vertex) point = search.find(point);
+        whole.vertex = relax_on_domain(cut.domain(), {cut.view()}, cut.domain().feature_edges,
+                                       whole, result.options, context)
+                           .vertex;
+        for (SurfacePoint& point : whole.vertex) point = point_of_input(split.mesh, point);
     }
     return whole;
 }
@@ -145,13 +168,13 @@ MirrorQuality judge_mirror(const SolvedSurface& surface, const SymmetryMap& map,
 }  // namespace
 
 QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, const Context& context,
-                               const std::function<void(const char* stage)>& finish_stage) {
+                               const StageEnd& finish_stage) {
     const FrameSource& frames = surface.frames;
     const Topology& topology = surface.topology;
     const IntrinsicMetric& metric = surface.metric;
     const Positions& reference = surface.reference;
     const SymmetryMap& map = result.symmetry->map;
-    const LevelSplit split = split_along_level(topology, metric, map.height, curve_snap_share);
+    const LevelSplit split = insert_stationary_curve(topology, metric, map);
     result.domain.fixed_directions = curve_directions(split, topology, metric, map);
     for (const FixedDirection& fixed : result.domain.fixed_directions) {
         for (int k = 0; k < 3; ++k) {
@@ -159,30 +182,30 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
         }
     }
     finish_stage("symmetry");
-    solve_field({{frames, reference, metric}}, result, context, finish_stage);
-
-    result.field_symmetry = measure_field_symmetry(topology, metric, result.field, map, reference,
-                                                   frames.triangles(), 3 * result.edge_length);
+    measure_deformation({{frames, reference, metric}}, result, context, finish_stage);
 
     // The map is made over the surface with the curve inserted.
-    Domain cut;
-    cut.surface.mesh = split.mesh;
-    cut.surface.is_on_curve = split.is_on_level;
-    cut.topology = build_topology(split.mesh.F, split.mesh.vertex_count);
-    const CarriedSequence cut_frames(frames, split.mesh.F, vertex_points(split.mesh));
-    const Positions pose = cut_frames.carry(reference);
-    cut.metric = choose_metric(cut_frames, cut.topology, pose, result.options, context);
-    result.field =
-        refine_cross_field(result.field, topology, metric, split.mesh, cut.topology, cut.metric);
-    result.domain = std::move(cut);
-    QuadMesh quads =
-        solve_quads({{cut_frames, pose, result.domain.metric}}, result, context, finish_stage);
+    const CutSurface cut(surface, split, result, context);
+    const std::vector<DomainView> views = {cut.view()};
+    const auto solve = [&] {
+        solve_field(result, context, finish_stage);
+        result.field_symmetry =
+            measure_field_symmetry(topology, metric, result.field, map, reference,
+                                   frames.triangles(), 3 * result.edge_length);
+        result.field = refine_cross_field(result.field, topology, metric, split.mesh,
+                                          cut.domain().topology, cut.domain().metric);
+        result.domain = cut.domain();
+        return map_and_extract(views, result, context, finish_stage);
+    };
+    const QuadMesh solved = solve_best_recipe(views, result, solve, context, finish_stage);
+    QuadMesh quads = relax_on_domain(result.domain, views, result.map.feature_edges, solved,
+                                     result.options, context);
     for (SurfacePoint& point : quads.vertex) point = point_of_input(split.mesh, point);
     return quads;
 }
 
 QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const Context& context,
-                             const std::function<void(const char* stage)>& finish_stage) {
+                             const StageEnd& finish_stage) {
     const FrameSource& frames = surface.frames;
     const Topology& topology = surface.topology;
     const IntrinsicMetric& metric = surface.metric;
@@ -206,10 +229,16 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
         (views[0].metric.edge_length + views[1].metric.edge_length) / 2;
     finish_stage("symmetry");
 
-    solve_field(views, result, context, finish_stage);
+    measure_deformation(views, result, context, finish_stage);
+    const auto solve = [&] {
+        solve_field(result, context, finish_stage);
+        return map_and_extract(views, result, context, finish_stage);
+    };
+    const QuadMesh solved = solve_best_recipe(views, result, solve, context, finish_stage);
+    const QuadMesh relaxed = relax_on_domain(result.domain, views, result.map.feature_edges, solved,
+                                             result.options, context);
     const bool are_tied = are_alike(views[0], views[1], half_topology);
-    QuadMesh quads = mirror_quads(
-        surface, result, solve_quads(views, result, context, finish_stage), are_tied, context);
+    QuadMesh quads = mirror_quads(surface, result, relaxed, are_tied, context);
     result.mirror = judge_mirror(surface, result.symmetry->map, quads);
     return quads;
 }

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <functional>
-
 #include "kinequad/core/context.h"
 #include "kinequad/io/frame_source.h"
-#include "kinequad/pipeline/result.h"
+#include "kinequad/pipeline/solve_quads.h"
 
 namespace kinequad {
 
@@ -21,12 +19,12 @@ struct SolvedSurface {
 /// `result` and calls `finish_stage` after each stage. Vertices are points of the surface. Throws
 /// as `quadrangulate`. docs/symmetry.md, "A symmetric field"
 QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, const Context& context,
-                               const std::function<void(const char* stage)>& finish_stage);
+                               const StageEnd& finish_stage);
 
 /// The quads of a surface whose one half, up to the stationary curve of `result.symmetry`, is
 /// solved for both sides together, then mirrored. As `solve_symmetric_field`; sets
 /// `QuadMesh::mirror`. docs/symmetry.md, "Quads that mirror exactly"
 QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const Context& context,
-                             const std::function<void(const char* stage)>& finish_stage);
+                             const StageEnd& finish_stage);
 
 }  // namespace kinequad

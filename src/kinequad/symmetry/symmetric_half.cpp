@@ -17,7 +17,6 @@ namespace kinequad {
 namespace {
 
 /// Share of an edge within which vertices come to lie on the curve.
-constexpr double snap_share = 0.2;
 
 /// Half-edges of the boundary.
 std::vector<int> boundary_half_edges(const Topology& topology) {
@@ -191,9 +190,15 @@ std::optional<SurfacePoint> mirror_on_boundary(const BoundaryArcs& arcs, const S
 
 }  // namespace
 
+LevelSplit insert_stationary_curve(const Topology& topology, const IntrinsicMetric& metric,
+                                   const SymmetryMap& map) {
+    constexpr double snap_share = 0.2;
+    return split_along_level(topology, metric, map.height, snap_share);
+}
+
 SymmetricHalf take_symmetric_half(const Topology& topology, const IntrinsicMetric& metric,
                                   const SymmetryMap& map, const Positions& V, const Triangles& F) {
-    const LevelSplit split = split_along_level(topology, metric, map.height, snap_share);
+    const LevelSplit split = insert_stationary_curve(topology, metric, map);
     const std::vector<SurfacePoint> points = vertex_points(split.mesh);
     std::vector<int> triangles;
     std::vector<int> number(at(split.mesh.vertex_count), -1);

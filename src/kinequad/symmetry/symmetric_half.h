@@ -6,6 +6,7 @@
 #include "kinequad/io/frame_source.h"
 #include "kinequad/mesh/intrinsic_metric.h"
 #include "kinequad/mesh/refined_mesh.h"
+#include "kinequad/mesh/split_along_level.h"
 #include "kinequad/symmetry/symmetry_map.h"
 
 namespace kinequad {
@@ -18,11 +19,15 @@ struct SymmetricHalf {
     std::vector<char> is_on_curve;  ///< n': nonzero on the stationary curve
 };
 
+/// The surface with the stationary curve of `map` inserted as edges. Vertices of the input next to
+/// the curve come to lie on it (see `split_along_level`).
+LevelSplit insert_stationary_curve(const Topology& topology, const IntrinsicMetric& metric,
+                                   const SymmetryMap& map);
+
 /// Cuts the surface along the stationary curve of `map` and keeps the side of positive height, of
-/// components that the curve does not meet the whole ones there. Vertices of the input next to the
-/// curve come to lie on it (see `split_along_level`); images of boundary vertices lie on the
-/// boundary: a loop goes to the one that its vertices are mapped next to in the shape `V` (n x 3).
-/// Throws `InputError` (symmetry) where nothing lies on the positive side. docs/symmetry.md
+/// components that the curve does not meet the whole ones there. Images of boundary vertices lie on
+/// the boundary: a loop goes to the one that its vertices are mapped next to in the shape `V` (n x
+/// 3). Throws `InputError` (symmetry) where nothing lies on the positive side. docs/symmetry.md
 SymmetricHalf take_symmetric_half(const Topology& topology, const IntrinsicMetric& metric,
                                   const SymmetryMap& map, const Positions& V, const Triangles& F);
 

@@ -217,12 +217,12 @@ void add_method_options(CLI::App& app, RunCommand& command) {
     app.add_option("--symmetrise", command.symmetrisation,
                    "How --symmetry field makes the cross field symmetric: term (in the energy, one "
                    "solve) or orbits (averaged over orbits and solved again, as in the paper) "
-                   "[term; orbits with --field paper]")
+                   "[the better of both; orbits with --field paper]")
         ->check(CLI::IsMember({"orbits", "term"}));
     app.add_option(
         "--alpha", options.alpha,
         fmt::format("Influence of the animation, from 0 (see the reference frame only) to below "
-                    "1 [{}; 0.1 with --symmetry exact or field]",
+                    "1 [{}; the best of two or three with --symmetry exact or field]",
                     default_alpha(CrossFieldMethod::convex)));
     app.add_option("--curvature", options.curvature, "Influence of the curvature (convex only)")
         ->capture_default_str();
@@ -237,9 +237,11 @@ void add_method_options(CLI::App& app, RunCommand& command) {
     app.add_option(
         "--singularity-cost", options.singularity_cost,
         "Energy that one singularity may cost, in squared radians (convex only) [0.08; 0.1 "
-        "with --symmetry exact]");
-    app.add_option("--relax", options.relax_rounds,
-                   "Rounds in which the vertices slide over the surface towards squares; 0: none")
+        "with --symmetry exact, 0.2 where orbits are averaged]");
+    app.add_option(
+           "--relax", options.relax_rounds,
+           "Rounds in which the vertices slide over the surface towards squares, then right "
+           "angles; 0: none")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     app.add_option(

@@ -1,7 +1,6 @@
 // What relaxation does to quads that fold, leave the surface or miss its tips: vertices search
 // around.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -145,7 +144,17 @@ bool SlidingQuads::move_onto(int v, const SurfacePoint& goal) {
         for (const auto& [w, point] : before) least = std::min(least, least_jacobian_around(w));
         return least;
     };
+    const double longest = longest_edge(v);
     place(v, goal);
+    // What is near in a reference may lie on another limb, as other frames tell.
+    double near = 1;
+    for (const Reference& reference : references_) {
+        near = std::max(near, longest_edge(v, reference.frame));
+    }
+    if (longest_edge(v) > std::max(longest, most_stretch * near)) {
+        place(v, before.front().second);
+        return false;
+    }
     for (int round = 0; round < 2 && least_around() < enough; ++round) {
         for (const auto& moved : before) {
             const int w = moved.first;
@@ -167,6 +176,18 @@ int SlidingQuads::cover_extremities(double limit, const Context& context) {
     return placed;
 }
 
+/// The quad vertex whose distance to vertex `x` of the input, squared, is least in the sum over all
+/// frames.
+int SlidingQuads::nearest_in_all_frames(int x) const {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(quads_.vertex.size()));
+    for (const Frame& frame : frames_) {
+        sum += (frame.vertices.rowwise() - frame.input.row(x)).rowwise().squaredNorm();
+    }
+    Eigen::Index nearest = 0;
+    sum.minCoeff(&nearest);
+    return static_cast<int>(nearest);
+}
+
 int SlidingQuads::cover_extremities_in(const Reference& reference, double limit) {
     std::vector<Far> far = input_farther_than(limit, reference);
     std::sort(far.begin(), far.end(), [](const Far& a, const Far& b) {
@@ -179,12 +200,15 @@ int SlidingQuads::cover_extremities_in(const Reference& reference, double limit)
     for (const Far& f : far) {
         // One extremity a quad at a time: moving its corner changes all distances around.
         if (is_busy[at(f.quad)]) continue;
-        std::array<std::pair<double, int>, 4> corners;
+        std::vector<std::pair<double, int>> corners;
         for (int k = 0; k < 4; ++k) {
             const int v = quads_.Q(f.quad, k);
-            corners[at(k)] = {(frame.vertices.row(v) - frame.input.row(f.vertex)).squaredNorm(), v};
+            corners.emplace_back((frame.vertices.row(v) - frame.input.row(f.vertex)).squaredNorm(),
+                                 v);
         }
         std::sort(corners.begin(), corners.end());
+        // Where limbs touch, that quad may be on the wrong one.
+        corners.emplace_back(0, nearest_in_all_frames(f.vertex));
         const int h = topology_.vertex_half_edge[at(f.vertex)];
         const SurfacePoint extremity{h / 3, Vector3::Unit(h % 3)};
         const bool is_on_line = walk_ && walk_->edge_of(extremity) >= 0;

@@ -141,8 +141,8 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
         sliding.relax_pass(
             is_for_squares ? SlidingQuads::Aim::squares : SlidingQuads::Aim::right_angles, limit,
             context);
-        const bool is_mending = round % 2 == 1 || round + 1 == square_rounds;
-        if (!is_for_squares || !is_mending) continue;
+        const int mending_interval = is_for_squares ? 2 : 4;
+        if ((round + 1) % mending_interval != 0 && round + 1 != square_rounds) continue;
         sliding.hug_surface(limit, 0, context);
         sliding.cover_extremities(limit, context);
     }

@@ -41,15 +41,16 @@ SlidingQuads::SlidingQuads(const QuadMesh& quads, const Topology& topology,
     link_corners();
     pin_boundary();
     for (SampledFrame& frame : frames) {
-        Frame own{std::move(frame.input), {}, frame.weight};
+        Frame own{std::move(frame.input), {}, frame.weight, 0};
         own.vertices.resize(static_cast<Eigen::Index>(quads.vertex.size()), 3);
         frames_.push_back(std::move(own));
     }
+    for (int v = 0; v < static_cast<int>(quads_.vertex.size()); ++v) place(v, quads_.vertex[at(v)]);
+    for (Frame& frame : frames_) frame.mean_edge = mean_edge_length(frame);
     for (int r = 0; r < reference_count; ++r) {
         const Frame& frame = frames_[at(r)];
         references_.push_back({frame, ClosestPoints(frame.input, F)});
     }
-    for (int v = 0; v < static_cast<int>(quads_.vertex.size()); ++v) place(v, quads_.vertex[at(v)]);
 }
 
 void SlidingQuads::link_corners() {
@@ -242,6 +243,25 @@ double SlidingQuads::shortest_edge(int v) const {
     return shortest;
 }
 
+/// The longest edge at `v` in a frame, by the mean length of the edges there.
+double SlidingQuads::longest_edge(int v, const Frame& frame) const {
+    double square = 0;
+    for (const int c : corners_of(v)) {
+        for (const int k : {1, 3}) {
+            const auto edge = frame.vertices.row(neighbour(c, k)) - frame.vertices.row(v);
+            square = std::max(square, edge.squaredNorm());
+        }
+    }
+    return std::sqrt(square) / frame.mean_edge;
+}
+
+/// The same, at most over all frames.
+double SlidingQuads::longest_edge(int v) const {
+    double longest = 0;
+    for (const Frame& frame : frames_) longest = std::max(longest, longest_edge(v, frame));
+    return longest;
+}
+
 bool SlidingQuads::improve(int v, Aim aim, double distance_limit) {
     const Vector2 move = aim == Aim::squares ? move_to_squares(v) : move_to_right_angles(v);
     const SurfacePoint before = quads_.vertex[at(v)];
@@ -251,12 +271,14 @@ bool SlidingQuads::improve(int v, Aim aim, double distance_limit) {
     const double cost_before = cost_around(v, relaxing_barrier);
     const double allowed = std::max(distance_limit, watched_distance(v));
     const double least = std::min(least_jacobian_around(v), least_kept_jacobian);
+    const double longest = std::max(longest_edge(v), most_stretch);
     for (const double length : {1.0, 0.4}) {
         place(v, walked(v, before, length * move));
         // Two vertices of a line must not come together at its end.
         const bool is_apart = slides_[at(v)] == 0 || shortest_edge(v) > least_edge * size;
         if (is_apart && cost_around(v, relaxing_barrier) < cost_before &&
-            least_jacobian_around(v) >= least && watched_distance(v) <= allowed) {
+            longest_edge(v) <= longest && least_jacobian_around(v) >= least &&
+            watched_distance(v) <= allowed) {
             return true;
         }
     }
@@ -323,11 +345,10 @@ void SlidingQuads::restore(const State& state) {
     is_pinned_ = state.is_pinned;
 }
 
-double SlidingQuads::mean_edge_length() const {
+double SlidingQuads::mean_edge_length(const Frame& frame) const {
     double sum = 0;
     for (int c = 0; c < static_cast<int>(quads_.Q.size()); ++c) {
-        sum += (frames_[0].vertices.row(neighbour(c, 1)) - frames_[0].vertices.row(neighbour(c, 0)))
-                   .norm();
+        sum += (frame.vertices.row(neighbour(c, 1)) - frame.vertices.row(neighbour(c, 0))).norm();
     }
     return quads_.Q.size() > 0 ? sum / static_cast<double>(quads_.Q.size()) : 0;
 }

@@ -16,6 +16,9 @@ namespace kinequad {
 /// When a quad counts as badly shaped while its vertices slide.
 inline constexpr FoldBarrier relaxing_barrier;
 
+/// Length that no move gives an edge in any frame, in mean lengths.
+inline constexpr double most_stretch = 3;
+
 /// A frame of the input that is looked at, and how much it counts.
 struct SampledFrame {
     Positions input;  ///< n x 3
@@ -101,7 +104,7 @@ public:
     int hug_surface(double limit, int reach, const Context& context);
 
     /// Mean length of the quads' edges in the first reference, in units of the input.
-    double mean_edge_length() const;
+    double mean_edge_length() const { return mean_edge_length(frames_[0]); }
 
     const QuadMesh& quads() const { return quads_; }
 
@@ -117,6 +120,7 @@ private:
         Positions input;
         Positions vertices;
         double weight;
+        double mean_edge;  ///< of the quads, when they began to slide
     };
     /// A pose in which folds and distances are looked at: the first frames, with the input there.
     struct Reference {
@@ -143,10 +147,14 @@ private:
     double least_jacobian_of(int quad) const;
     SurfacePoint walked(int v, const SurfacePoint& start, const Vector2& move) const;
     double shortest_edge(int v) const;
+    double longest_edge(int v, const Frame& frame) const;
+    double longest_edge(int v) const;
+    double mean_edge_length(const Frame& frame) const;
     double watched_distance(int v) const;
     bool improve(int v, Aim aim, double distance_limit);
     void search_around(int v, const std::function<double()>& cost);
     bool move_onto(int v, const SurfacePoint& goal);
+    int nearest_in_all_frames(int x) const;
     int cover_extremities_in(const Reference& reference, double limit);
     std::vector<int> vertices_around(int quad, int reach) const;
     double distance_of(int quad) const;

@@ -111,6 +111,21 @@ private:
     Domain domain_;
 };
 
+/// Throws `VerificationError` where a vertex of quads on the surface with the curve inserted is its
+/// own mirror image and not on an edge of the curve, along which it could slide.
+void require_on_curve(const QuadMesh& quads, const LevelSplit& split) {
+    for (std::size_t v = 0; v < quads.vertex.size(); ++v) {
+        if (quads.mirror[v] != static_cast<int>(v)) continue;
+        const SurfacePoint& point = quads.vertex[v];
+        for (int k = 0; k < 3; ++k) {
+            if (point.barycentric[k] == 0 || split.is_on_level[at(split.mesh.F(point.triangle, k))])
+                continue;
+            throw VerificationError(fmt::format(
+                "vertex {} of the line of symmetry is not on it; please report this input", v));
+        }
+    }
+}
+
 /// The quads of both sides, from those of the half. Unless the sides `are_tied`, as where they are
 /// alike, each finds its own place on the surface.
 QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const QuadMesh& half,
@@ -134,6 +149,7 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
         const CutSurface cut(surface, split, result, context);
         const RefinementSearch search(split.mesh);
         for (SurfacePoint& point : whole.vertex) point = search.find(point);
+        require_on_curve(whole, split);
         whole.vertex = relax_on_domain(cut.domain(), {cut.view()}, cut.domain().feature_edges,
                                        whole, result.options, context)
                            .vertex;

@@ -130,7 +130,6 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
     SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
                          sample_frames(views, options), static_cast<int>(views.size()));
     sliding.let_slide(options.line_edges);
-    sliding.pin(options.pinned);
     const double limit = options.distance_limit * sliding.mean_edge_length();
     const int square_rounds = options.rounds;
     const int angle_rounds = options.rounds + options.rounds / 2;

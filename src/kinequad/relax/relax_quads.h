@@ -24,9 +24,6 @@ struct RelaxOptions {
     /// Edges of lines of the surface, such as the line of symmetry or features: quad vertices on
     /// them slide along them.
     std::vector<int> line_edges = {};
-    /// Vertices of the quads (v, nonzero) that stay where they are, beside those on boundaries; may
-    /// be empty.
-    std::vector<char> pinned = {};
 };
 
 /// An animation that quads are relaxed in, and the pose of it in which none may stay folded.

@@ -96,12 +96,6 @@ void SlidingQuads::let_slide(const std::vector<int>& edges) {
     }
 }
 
-void SlidingQuads::pin(const std::vector<char>& vertices) {
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-        if (vertices[v]) is_pinned_[v] = stays_[v] = 1;
-    }
-}
-
 SlidingQuads::Range SlidingQuads::corners_of(int v) const {
     return {corner_.data() + corner_start_[at(v)], corner_.data() + corner_start_[at(v) + 1]};
 }

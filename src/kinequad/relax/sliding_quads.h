@@ -48,9 +48,6 @@ public:
     /// those at ends of lines stay.
     void let_slide(const std::vector<int>& edges);
 
-    /// Vertices (v, nonzero) that stay where they are, beside those on the boundary.
-    void pin(const std::vector<char>& vertices);
-
     /// What the quads around a vertex should become.
     enum class Aim {
         squares,       ///< of equal sides too: evens out a map that is far from the surface

@@ -16,8 +16,8 @@ constexpr double safe_jacobian = 0.15;
 constexpr double least_jacobian = 0.05;
 constexpr int releasing_pass = 8;
 constexpr int most_unfolding_passes = 16;
-constexpr int fitting_rounds = 6;
-constexpr int most_rounds_in_vain = 2;
+constexpr int fitting_rounds = 10;
+constexpr int most_rounds_in_vain = 4;
 
 /// The references, then the other frames.
 std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views,

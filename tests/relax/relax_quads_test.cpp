@@ -203,7 +203,7 @@ TEST(Hold, KeepsTheCornersOfAQuadUntilRelease) {
 TEST(Distances, SeeTheSpikeAtItsQuad) {
     int tip = -1;
     const Grid grid = spiked(&tip);
-    const std::vector<double> distances = grid.sliding({{grid.mesh.V, 1}}).distances();
+    const std::vector<double> distances = grid.sliding({{grid.mesh.V, 1}}).distances({});
     // Quads of a sixth: the spike at (0.55, 0.45), 0.12 high, stands on the one in row 2, column 3.
     const auto farthest = std::max_element(distances.begin(), distances.end());
     EXPECT_EQ(farthest - distances.begin(), 2 * 6 + 3);
@@ -250,7 +250,7 @@ TEST(UnfoldPass, LeavesGoodQuadsAlone) {
     }
 }
 
-TEST(CoverExtremities, PutsAVertexOntoASpikeForGood) {
+TEST(CoverExtremities, PutsAVertexOntoASpikeUntilRelease) {
     int tip = -1;
     const Grid grid = spiked(&tip);
     SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
@@ -271,6 +271,48 @@ TEST(CoverExtremities, PutsAVertexOntoASpikeForGood) {
     EXPECT_LT(nearest(sliding.quads()), 1e-12);
     EXPECT_GT(grid.least_jacobian(sliding.quads(), grid.mesh.V), 0);
     grid.expect_kept(sliding.quads());
+    sliding.release();
+    sliding.relax_pass(Aim::squares, 1, {});
+    EXPECT_GT(nearest(sliding.quads()), 0.01);
+}
+
+TEST(Regions, AreWhatMovedAndGoBackAlone) {
+    TriangleMesh mesh = landscape(40, flat);
+    for (const double x : {0.29, 0.79}) {
+        Eigen::Index tip = 0;
+        (mesh.V.rowwise() - Eigen::RowVector3d(x, 0.55, 0)).rowwise().squaredNorm().minCoeff(&tip);
+        mesh.V(tip, 2) = 0.1;
+    }
+    const Grid grid(std::move(mesh), 12, 0);
+    SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+    const SlidingQuads::State before = sliding.state();
+    EXPECT_TRUE(sliding.regions_moved_since(before).empty());
+    ASSERT_EQ(sliding.cover_extremities(0.05, {}), 2);
+    const SlidingQuads::State covered = sliding.state();
+    using Regions = std::vector<std::vector<int>>;
+    const Regions regions = sliding.regions_moved_since(before);
+    ASSERT_EQ(regions.size(), 2U);
+    for (const std::vector<int>& region : regions) EXPECT_GE(region.size(), 4U);
+    sliding.restore(before, regions[0]);
+    EXPECT_EQ(sliding.regions_moved_since(before), Regions{regions[1]});
+    EXPECT_EQ(sliding.regions_moved_since(covered), Regions{regions[0]});
+}
+
+TEST(RelaxQuads, CoversATipAndLeavesTheRestSquare) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    const MemorySequence sequence(grid.mesh.F, {grid.mesh.V});
+    Grid after = grid;
+    after.quads = relax_quads(grid.quads, {{sequence, grid.mesh.V}}, grid.topology, grid.metric,
+                              {.distance_limit = 0.4}, {});
+    grid.expect_kept(after.quads);
+    const std::vector<double> distances = after.sliding({{grid.mesh.V, 1}}).distances({});
+    EXPECT_LT(*std::max_element(distances.begin(), distances.end()), 0.4 / 6);
+    EXPECT_GT(grid.least_jacobian(after.quads, grid.mesh.V), 0.15);
+    // The spike is one vertex of quads that are a sixth wide: those two away stay squares, nearly.
+    for (const Eigen::Index quad : {0, 5, 30, 35}) {
+        EXPECT_LT(quad_cost(grid.corners(after.quads, grid.mesh.V, quad), FoldBarrier{}), 0.01);
+    }
 }
 
 TEST(RelaxQuads, ImprovesAllFramesTogetherAndKeepsTheMesh) {

@@ -16,6 +16,10 @@ struct TriangleMesh {
 struct SurfacePoint {
     int triangle = -1;
     Vector3 barycentric = Vector3(1, 0, 0);
+
+    bool operator==(const SurfacePoint& other) const {
+        return triangle == other.triangle && barycentric == other.barycentric;
+    }
 };
 
 /// Length of the diagonal of the axis-aligned bounding box of the rows of `V`; 0 where there is

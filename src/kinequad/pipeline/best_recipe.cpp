@@ -115,11 +115,8 @@ QuadMesh solve_best_recipe(const std::vector<DomainView>& views, Result& result,
                                           attempt.singular, attempt.angle, name));
             is_best_last = !best || attempt < *best;
             if (is_best_last) best = std::move(attempt);
-        } catch (const GridMapError& error) {
-            failure = std::current_exception();
-            context.write_log(LogLevel::info,
-                              fmt::format("recipe: none with {}: {}", name, error.what()));
-        } catch (const VerificationError& error) {
+        } catch (const Error& error) {
+            if (!may_be_overcome(error)) throw;
             failure = std::current_exception();
             context.write_log(LogLevel::info,
                               fmt::format("recipe: none with {}: {}", name, error.what()));

@@ -66,7 +66,7 @@ std::vector<Options> list_recipes(const Options& options) {
         if (!is_paper && options.symmetry != SymmetryMode::none) {
             alphas = is_twice_solved ? std::vector{0.4, 0.5}
                      : is_whole      ? std::vector{0.05}
-                                     : std::vector{0.1, 0.35};
+                                     : std::vector{0.02, 0.1, 0.35, 0.5};
         }
         if (options.alpha) alphas = {*options.alpha};
         const double cost = options.symmetry == SymmetryMode::exact ? 0.1

@@ -57,7 +57,7 @@ struct Options {
     /// the reference for little (without symmetry, `convex` only).
     std::optional<MetricChoice> metric;
     int reference = 0;     ///< frame that is the reference, or `rest_shape`
-    int relax_rounds = 6;  ///< passes in which vertices slide towards squares; 0: none
+    int relax_rounds = 8;  ///< passes in which vertices slide towards squares; 0: none
     bool metrics = true;   ///< measure the result in every frame
 };
 

@@ -222,9 +222,7 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
             finish_stage("extraction");
             return quads;
         } catch (const Error& error) {
-            const bool can_be_denser = error.code() == ExitCode::no_grid_map ||
-                                       error.code() == ExitCode::verification_failed;
-            if (!can_be_denser || attempt == most_attempts) throw;
+            if (!may_be_overcome(error) || attempt == most_attempts) throw;
             options.edge_length *= shortening;
             result.notes.push_back(fmt::format("edges of {:.4g} instead of {:.4g}: {}",
                                                options.edge_length, result.edge_length,
@@ -232,6 +230,10 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
             context.write_log(LogLevel::warning, "gridmap: " + result.notes.back());
         }
     }
+}
+
+bool may_be_overcome(const Error& error) {
+    return error.code() == ExitCode::no_grid_map || error.code() == ExitCode::verification_failed;
 }
 
 QuadMesh relax_on_domain(const Domain& domain, const std::vector<DomainView>& views,

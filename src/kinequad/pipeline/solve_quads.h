@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kinequad/core/context.h"
+#include "kinequad/core/error.h"
 #include "kinequad/io/frame_source.h"
 #include "kinequad/pipeline/result.h"
 
@@ -43,6 +44,10 @@ void solve_field(Result& result, const Context& context, const StageEnd& finish_
 /// `quadrangulate`.
 QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
                          const Context& context, const StageEnd& finish_stage);
+
+/// Whether another recipe or density may do where this error came from: no map, or a result that
+/// failed its verifier.
+bool may_be_overcome(const Error& error);
 
 /// Slides the vertices of `quads` over `domain` as `run` asks for, those on its boundary, its curve
 /// and `feature_edges` along these, and verifies what comes of it. Throws as `quadrangulate`.

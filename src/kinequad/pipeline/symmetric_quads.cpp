@@ -126,8 +126,8 @@ void require_on_curve(const QuadMesh& quads, const LevelSplit& split) {
     }
 }
 
-/// The quads of both sides, from those of the half. Unless the sides `are_tied`, as where they are
-/// alike, each finds its own place on the surface.
+/// The quads of both sides, from those of the half, relaxed unless the sides `are_tied`, as where
+/// they are alike: each finds its own place on the surface.
 QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const QuadMesh& half,
                       bool are_tied, const Context& context) {
     const FrameSource& frames = surface.frames;
@@ -150,8 +150,11 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
         const RefinementSearch search(split.mesh);
         for (SurfacePoint& point : whole.vertex) point = search.find(point);
         require_on_curve(whole, split);
+        // Quads from the other side have farther to go than those of a map.
+        Options options = result.options;
+        options.relax_rounds *= 2;
         whole.vertex = relax_on_domain(cut.domain(), {cut.view()}, cut.domain().feature_edges,
-                                       whole, result.options, context)
+                                       whole, options, context)
                            .vertex;
         for (SurfacePoint& point : whole.vertex) point = point_of_input(split.mesh, point);
     }
@@ -251,10 +254,12 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
         return map_and_extract(views, result, context, finish_stage);
     };
     const QuadMesh solved = solve_best_recipe(views, result, solve, context, finish_stage);
-    const QuadMesh relaxed = relax_on_domain(result.domain, views, result.map.feature_edges, solved,
-                                             result.options, context);
     const bool are_tied = are_alike(views[0], views[1], half_topology);
-    QuadMesh quads = mirror_quads(surface, result, relaxed, are_tied, context);
+    const QuadMesh half_quads =
+        are_tied ? relax_on_domain(result.domain, views, result.map.feature_edges, solved,
+                                   result.options, context)
+                 : solved;
+    QuadMesh quads = mirror_quads(surface, result, half_quads, are_tied, context);
     result.mirror = judge_mirror(surface, result.symmetry->map, quads);
     return quads;
 }

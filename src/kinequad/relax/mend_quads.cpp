@@ -2,6 +2,7 @@
 // around.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -17,20 +18,21 @@ constexpr double least_covering_jacobian = 0.15;
 }  // namespace
 
 /// Moves vertex `v` to where `cost` is least among places around it, if that is less than here.
-void SlidingQuads::search_around(int v, const std::function<double()>& cost) {
+/// `cost` may give any number that is not below its argument for one that is not.
+void SlidingQuads::search_around(int v, const std::function<double(double)>& cost) {
     constexpr int directions = 12;
     const Positions& X = frames_[0].vertices;
     const double size = (X.row(neighbour(*corners_of(v).begin(), 1)) - X.row(v)).norm();
     const SurfacePoint before = quads_.vertex[at(v)];
     SurfacePoint best = before;
-    double least = cost();
+    double least = cost(std::numeric_limits<double>::infinity());
     for (const double length : {0.9, 0.5, 0.25, 0.12, 0.06, 0.03}) {
         for (int i = 0; i < directions; ++i) {
             const double angle = 2 * std::numbers::pi * (i + 5 * length) / directions;
             const Vector2 step = length * size * Vector2(std::cos(angle), std::sin(angle));
             place(v, walked(v, before, step));
             const bool is_apart = slides_[at(v)] == 0 || shortest_edge(v) > 0.1 * size;
-            const double value = cost();
+            const double value = cost(least);
             if (is_apart && value < least) {
                 least = value;
                 best = quads_.vertex[at(v)];
@@ -63,44 +65,61 @@ int SlidingQuads::unfold_pass(double worst_jacobian, double safe_jacobian, int r
                               const Context& context) {
     const FoldBarrier barrier{safe_jacobian, 100};
     // The references decide; the others only choose among what unfolds it alike.
-    const auto cost = [&](int v) {
-        double sum = 0.1 * cost_around(v, relaxing_barrier);
+    const auto cost = [&](int v, double most) {
         const double weight =
             static_cast<double>(frames_.size()) / static_cast<double>(references_.size());
+        double sum = 0;
         for (const int c : corners_of(v)) {
             for (const Reference& reference : references_) {
                 sum += weight * quad_cost(corners_in(reference.frame, c / 4), barrier);
             }
         }
-        return sum;
+        return sum < most ? sum + 0.1 * cost_around(v, relaxing_barrier) : sum;
     };
     int folded = 0;
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
         if (least_jacobian_of(q) >= worst_jacobian) continue;
         context.check_cancelled();
         for (const int v : vertices_around(q, reach)) {
-            if (is_pinned_[at(v)] == 0) search_around(v, [&] { return cost(v); });
+            if (is_pinned_[at(v)] == 0)
+                search_around(v, [&](double most) { return cost(v, most); });
         }
         folded += least_jacobian_of(q) <= 0 ? 1 : 0;
     }
     return folded;
 }
 
-/// How far the middle of a quad and of its edges are from the input, at most, in the references.
+/// How far a quad is from the input, at most, in the references: in its middle and that of its
+/// edges, and where these are not near, halfway on to the corners too.
 double SlidingQuads::distance_of(int quad) const {
+    constexpr double near = 0.15;
     double farthest = 0;
     for (const Reference& reference : references_) {
         const QuadCorners p = corners_in(reference.frame, quad);
         int hint = quads_.vertex[at(quads_.Q(quad, 0))].triangle;
-        const auto look = [&](const Vector3& point) {
+        const auto distance_at = [&](const Vector3& point) {
             const ClosestPoint closest = reference.surface.find(point, hint);
             hint = closest.point.triangle;
-            farthest = std::max(farthest, closest.squared_distance);
+            return std::sqrt(closest.squared_distance);
         };
-        look((p[0] + p[1] + p[2] + p[3]) / 4);
-        for (std::size_t k = 0; k < 4; ++k) look((p[k] + p[(k + 1) % 4]) / 2);
+        const Vector3 middle = (p[0] + p[1] + p[2] + p[3]) / 4;
+        double here = distance_at(middle);
+        for (std::size_t k = 0; k < 4; ++k) {
+            here = std::max(here, distance_at((p[k] + p[(k + 1) % 4]) / 2));
+        }
+        if (here > near * reference.frame.mean_edge) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Vector3& next = p[(k + 1) % 4];
+                for (const Vector3& point :
+                     {Vector3((middle + p[k]) / 2), Vector3((3 * p[k] + next) / 4),
+                      Vector3((p[k] + 3 * next) / 4)}) {
+                    here = std::max(here, distance_at(point));
+                }
+            }
+        }
+        farthest = std::max(farthest, here);
     }
-    return std::sqrt(farthest);
+    return farthest;
 }
 
 int SlidingQuads::hug_surface(double limit, int reach, const Context& context) {
@@ -112,9 +131,10 @@ int SlidingQuads::hug_surface(double limit, int reach, const Context& context) {
         if (distance_of(q) <= limit) continue;
         for (const int v : vertices_around(q, reach)) {
             if (is_pinned_[at(v)]) continue;
-            search_around(v, [&] {
+            search_around(v, [&](double most) {
                 double sum = cost_around(v, barrier) / static_cast<double>(frames_.size());
                 for (const int c : corners_of(v)) {
+                    if (sum >= most) break;
                     const double excess = std::max(0.0, distance_of(c / 4) / limit - 0.5);
                     sum += distance_weight * excess * excess;
                 }
@@ -159,7 +179,7 @@ bool SlidingQuads::move_onto(int v, const SurfacePoint& goal) {
         for (const auto& moved : before) {
             const int w = moved.first;
             if (w == v || is_pinned_[at(w)]) continue;
-            search_around(w, [&] { return cost_around(w, barrier); });
+            search_around(w, [&](double) { return cost_around(w, barrier); });
         }
     }
     if (least_around() >= enough) return true;
@@ -170,8 +190,7 @@ bool SlidingQuads::move_onto(int v, const SurfacePoint& goal) {
 int SlidingQuads::cover_extremities(double limit, const Context& context) {
     int placed = 0;
     for (const Reference& reference : references_) {
-        context.check_cancelled();
-        placed += cover_extremities_in(reference, limit);
+        placed += cover_extremities_in(reference, limit, context);
     }
     return placed;
 }
@@ -188,8 +207,9 @@ int SlidingQuads::nearest_in_all_frames(int x) const {
     return static_cast<int>(nearest);
 }
 
-int SlidingQuads::cover_extremities_in(const Reference& reference, double limit) {
-    std::vector<Far> far = input_farther_than(limit, reference);
+int SlidingQuads::cover_extremities_in(const Reference& reference, double limit,
+                                       const Context& context) {
+    std::vector<Far> far = input_farther_than(limit, reference, context);
     std::sort(far.begin(), far.end(), [](const Far& a, const Far& b) {
         return a.distance != b.distance ? a.distance > b.distance : a.vertex < b.vertex;
     });

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "kinequad/core/index.h"
 #include "kinequad/relax/sliding_quads.h"
 
 namespace kinequad {
@@ -50,33 +52,65 @@ void unfold(SlidingQuads& sliding, int most_passes, const Context& context) {
     }
 }
 
+/// A distance in the sum that says how far quads are from the surface: the largest counts above
+/// all, but others count, too.
+double misfit_of(double distance, double limit) { return std::pow(distance / limit, 8); }
+
 /// Quads at one time, and how good they are.
 struct Fit {
     int folded = 0;
+    std::vector<char> is_folded;    ///< q: in a reference
     std::vector<double> distances;  ///< q: see `SlidingQuads::distances`
     double distance = 0;            ///< the largest of them
+    double misfit = 0;              ///< their sum, see `misfit_of`
     SlidingQuads::State quads;
 };
 
-Fit look_at(const SlidingQuads& sliding) {
-    Fit fit{sliding.count_folded(), sliding.distances(), 0, sliding.state()};
-    for (const double distance : fit.distances) fit.distance = std::max(fit.distance, distance);
+Fit look_at(const SlidingQuads& sliding, double limit, const Context& context) {
+    Fit fit;
+    fit.distances = sliding.distances(context);
+    for (std::size_t q = 0; q < fit.distances.size(); ++q) {
+        fit.is_folded.push_back(sliding.is_folded(static_cast<int>(q)) ? 1 : 0);
+        fit.folded += fit.is_folded.back();
+        fit.distance = std::max(fit.distance, fit.distances[q]);
+        fit.misfit += misfit_of(fit.distances[q], limit);
+    }
+    fit.quads = sliding.state();
     return fit;
 }
 
+/// Puts those regions of the quads back to what they were in `before` where that was better: less
+/// folded, then closer. Returns what comes of it.
+Fit keep_better_regions(SlidingQuads& sliding, const Fit& before, double limit,
+                        const Context& context) {
+    const Fit now = look_at(sliding, limit, context);
+    bool is_mixed = false;
+    for (const std::vector<int>& region : sliding.regions_moved_since(before.quads)) {
+        int folded = 0;
+        double misfit = 0;
+        for (const int q : region) {
+            folded += now.is_folded[at(q)] - before.is_folded[at(q)];
+            misfit +=
+                misfit_of(now.distances[at(q)], limit) - misfit_of(before.distances[at(q)], limit);
+        }
+        if (folded < 0 || (folded == 0 && misfit < 0)) continue;
+        sliding.restore(before.quads, region);
+        is_mixed = true;
+    }
+    return is_mixed ? look_at(sliding, limit, context) : now;
+}
+
 /// Alternates what keeps quads unfolded and what keeps the two surfaces together, which are at odds
-/// in creases and on tips, and ends with the best state seen: least folded, then closest.
+/// in creases and on tips, and keeps in every region what is best there.
 Fit fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
-    const auto is_better = [](const Fit& a, const Fit& b) {
-        return a.folded != b.folded ? a.folded < b.folded : a.distance < b.distance;
-    };
     unfold(sliding, releasing_pass, context);
-    Fit best = look_at(sliding);
+    Fit best = look_at(sliding, limit, context);
     int rounds_in_vain = 0;
     for (int round = 0; round < fitting_rounds && rounds_in_vain < most_rounds_in_vain &&
                         (best.folded > 0 || best.distance > limit);
          ++round) {
-        // Every other round starts from the best state with all vertices free.
+        // Every other round goes on from the best quads with all vertices free, the rest from the
+        // last ones: what is worse at first may lead farther.
         if (round % 2 == 1) {
             sliding.restore(best.quads);
             sliding.release();
@@ -86,19 +120,21 @@ Fit fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
         const bool is_last_resort = best.folded > 0 && round >= 2;
         if (is_last_resort) sliding.release();
         unfold(sliding, is_last_resort ? most_unfolding_passes : releasing_pass, context);
-        Fit now = look_at(sliding);
+        const SlidingQuads::State last = sliding.state();
+        Fit better = keep_better_regions(sliding, best, limit, context);
         ++rounds_in_vain;
-        if (!is_better(now, best)) continue;
-        if (now.folded < best.folded || now.distance < 0.9 * best.distance) rounds_in_vain = 0;
-        best = std::move(now);
+        if (better.folded < best.folded || better.misfit < 0.9 * best.misfit) rounds_in_vain = 0;
+        best = std::move(better);
+        sliding.restore(last);
     }
     sliding.restore(best.quads);
     return best;
 }
 
 /// Takes back what `fit_surface` had to give up for `best`, as far as it can: vertices go on
-/// towards right angles, but for those of quads that are about to leave the surface. A pass that
-/// lets a quad leave it is undone, and that quad held. Returns the number of folded quads.
+/// towards right angles, for `rounds` passes, but for those of quads that are about to leave the
+/// surface. A pass that lets a quad leave it is undone, and that quad held. Returns the number of
+/// folded quads.
 int settle(SlidingQuads& sliding, Fit best, double limit, int rounds, const Context& context) {
     constexpr double held_share = 0.7;
     const auto hold_beyond = [&](const std::vector<double>& distances, double distance) {
@@ -107,10 +143,12 @@ int settle(SlidingQuads& sliding, Fit best, double limit, int rounds, const Cont
         }
     };
     const double allowed = std::max(limit, best.distance);
-    for (int round = 0; round < rounds; ++round) {
+    sliding.release();
+    best.quads = sliding.state();
+    for (int round = 0, passes = 0; passes < rounds && round < 3 * rounds; ++round) {
         hold_beyond(best.distances, held_share * limit);
         sliding.relax_pass(SlidingQuads::Aim::right_angles, limit, context);
-        Fit now = look_at(sliding);
+        Fit now = look_at(sliding, limit, context);
         if (now.folded > best.folded || now.distance > allowed) {
             hold_beyond(now.distances, allowed);
             best.quads.is_pinned = sliding.state().is_pinned;
@@ -118,6 +156,7 @@ int settle(SlidingQuads& sliding, Fit best, double limit, int rounds, const Cont
             continue;
         }
         best = std::move(now);
+        ++passes;
     }
     return best.folded;
 }
@@ -142,6 +181,8 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
             context);
         const int mending_interval = is_for_squares ? 2 : 4;
         if ((round + 1) % mending_interval != 0 && round + 1 != square_rounds) continue;
+        // What covers tips now may be better used elsewhere than what did before.
+        sliding.release();
         sliding.hug_surface(limit, 0, context);
         sliding.cover_extremities(limit, context);
     }

@@ -17,7 +17,7 @@ struct RelaxOptions {
     /// The reference is this frame, which is not looked at twice; empty where it is no frame.
     std::optional<int> reference_frame = 0;
     /// Passes over all vertices.
-    int rounds = 6;
+    int rounds = 8;
     /// Vertices of the input farther than this from the quads, in edge lengths of the quads, get a
     /// quad vertex of their own: finger tips, ears.
     double distance_limit = 0.4;

@@ -295,12 +295,14 @@ int SlidingQuads::relax_pass(Aim aim, double distance_limit, const Context& cont
 }
 
 std::vector<SlidingQuads::Far> SlidingQuads::input_farther_than(double distance,
-                                                                const Reference& reference) const {
+                                                                const Reference& reference,
+                                                                const Context& context) const {
     const Frame& frame = reference.frame;
     const ClosestPoints quads(frame.vertices, cut_quads(quads_.Q, frame.vertices));
     std::vector<Far> far;
     int hint = -1;
     for (int x = 0; x < topology_.vertex_count; ++x) {
+        if (x % 4096 == 0) context.check_cancelled();
         if (topology_.vertex_half_edge[at(x)] < 0) continue;
         const ClosestPoint closest = quads.find(frame.input.row(x).transpose(), hint);
         hint = closest.point.triangle;
@@ -311,11 +313,11 @@ std::vector<SlidingQuads::Far> SlidingQuads::input_farther_than(double distance,
     return far;
 }
 
-std::vector<double> SlidingQuads::distances() const {
+std::vector<double> SlidingQuads::distances(const Context& context) const {
     std::vector<double> farthest(at(static_cast<int>(quads_.Q.rows())));
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) farthest[at(q)] = distance_of(q);
     for (const Reference& reference : references_) {
-        for (const Far& far : input_farther_than(0, reference)) {
+        for (const Far& far : input_farther_than(0, reference, context)) {
             farthest[at(far.quad)] = std::max(farthest[at(far.quad)], far.distance);
         }
     }
@@ -326,17 +328,50 @@ void SlidingQuads::hold(int quad) {
     for (int k = 0; k < 4; ++k) is_pinned_[at(quads_.Q(quad, k))] = 1;
 }
 
-int SlidingQuads::count_folded() const {
-    int folded = 0;
-    for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-        folded += least_jacobian_of(q) <= 0 ? 1 : 0;
-    }
-    return folded;
-}
-
 void SlidingQuads::restore(const State& state) {
     for (int v = 0; v < static_cast<int>(state.vertex.size()); ++v) place(v, state.vertex[at(v)]);
     is_pinned_ = state.is_pinned;
+}
+
+void SlidingQuads::restore(const State& state, const std::vector<int>& region) {
+    for (const int q : region) {
+        for (int k = 0; k < 4; ++k) {
+            const int v = quads_.Q(q, k);
+            place(v, state.vertex[at(v)]);
+            is_pinned_[at(v)] = state.is_pinned[at(v)];
+        }
+    }
+}
+
+std::vector<std::vector<int>> SlidingQuads::regions_moved_since(const State& state) const {
+    std::vector<char> is_reached(quads_.vertex.size());
+    for (std::size_t v = 0; v < is_reached.size(); ++v) {
+        is_reached[v] = quads_.vertex[v] == state.vertex[v] ? 1 : 0;
+    }
+    std::vector<char> is_listed(at(static_cast<int>(quads_.Q.rows())), 0);
+    std::vector<std::vector<int>> regions;
+    for (int seed = 0; seed < static_cast<int>(is_reached.size()); ++seed) {
+        if (is_reached[at(seed)]) continue;
+        is_reached[at(seed)] = 1;
+        std::vector<int> stack = {seed};
+        std::vector<int>& region = regions.emplace_back();
+        while (!stack.empty()) {
+            const int v = stack.back();
+            stack.pop_back();
+            for (const int c : corners_of(v)) {
+                if (is_listed[at(c / 4)]) continue;
+                is_listed[at(c / 4)] = 1;
+                region.push_back(c / 4);
+                for (int k = 0; k < 4; ++k) {
+                    const int w = quads_.Q(c / 4, k);
+                    if (is_reached[at(w)]) continue;
+                    is_reached[at(w)] = 1;
+                    stack.push_back(w);
+                }
+            }
+        }
+    }
+    return regions;
 }
 
 double SlidingQuads::mean_edge_length(const Frame& frame) const {

@@ -30,15 +30,6 @@ struct SampledFrame {
 /// and those that `cover_extremities` has put in place, stay.
 class SlidingQuads {
 public:
-    double total() const {
-        double s = 0, w = 0;
-        for (const Frame& f : frames_)
-            for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-                s += f.weight * quad_cost(corners_in(f, q), FoldBarrier{-1, 0});
-                w += 4 * f.weight;
-            }
-        return std::sqrt(s / w) * 57.3;
-    }
     /// `F` m x 3 triangles of the input; the first `reference_count` of `frames`, at least one, are
     /// references. `topology`, `metric` and `F` have to outlive this.
     SlidingQuads(const QuadMesh& quads, const Topology& topology, const IntrinsicMetric& metric,
@@ -66,15 +57,12 @@ public:
     int unfold_pass(double worst_jacobian, double safe_jacobian, int reach, const Context& context);
 
     /// Distance between the two surfaces at every quad (q), at most over the references, in units
-    /// of the input: seen from the middles of the quad and its edges, and from the vertices of the
-    /// input that are closest to it.
-    std::vector<double> distances() const;
+    /// of the input: seen from points of the quad, and from the vertices of the input that are
+    /// closest to it.
+    std::vector<double> distances(const Context& context) const;
 
     /// Keeps the corners of a quad where they are until `release`.
     void hold(int quad);
-
-    /// Number of quads folded in a reference.
-    int count_folded() const;
 
     /// Where all vertices are, and which stay there.
     struct State {
@@ -86,15 +74,24 @@ public:
     /// Puts all vertices back to where they were.
     void restore(const State& state);
 
+    /// The same for the corners of the quads `region` alone.
+    void restore(const State& state, const std::vector<int>& region);
+
+    /// The quads with a corner that is not where it was, in regions that share no such corner.
+    std::vector<std::vector<int>> regions_moved_since(const State& state) const;
+
+    /// Whether a quad is folded in a reference.
+    bool is_folded(int quad) const { return least_jacobian_of(quad) <= 0; }
+
     /// Sets free what `cover_extremities` has put in place and `hold` has kept.
     void release();
 
     /// Puts a quad vertex onto every vertex of the input that is farther than `limit` (units of the
     /// input) from the quads in a reference and is no corner of what has been put in place
-    /// before. Returns the number of vertices put in place.
+    /// before. It stays there until `release`. Returns the number of vertices put in place.
     int cover_extremities(double limit, const Context& context);
 
-    /// Tries moves of the vertices up to `reach` quads around quads whose middle or edges leave the
+    /// Tries moves of the vertices up to `reach` quads around quads whose inside or edges leave the
     /// surface by more than `limit` (units of the input) in a reference, as where they bridge a
     /// crease, and keeps what brings them closer. Returns the number of quads that stay farther
     /// away.
@@ -131,7 +128,8 @@ private:
         int vertex;
         int quad;
     };
-    std::vector<Far> input_farther_than(double distance, const Reference& reference) const;
+    std::vector<Far> input_farther_than(double distance, const Reference& reference,
+                                        const Context& context) const;
 
     Range corners_of(int v) const;
     int neighbour(int corner, int k) const;
@@ -149,10 +147,10 @@ private:
     double mean_edge_length(const Frame& frame) const;
     double watched_distance(int v) const;
     bool improve(int v, Aim aim, double distance_limit);
-    void search_around(int v, const std::function<double()>& cost);
+    void search_around(int v, const std::function<double(double)>& cost);
     bool move_onto(int v, const SurfacePoint& goal);
     int nearest_in_all_frames(int x) const;
-    int cover_extremities_in(const Reference& reference, double limit);
+    int cover_extremities_in(const Reference& reference, double limit, const Context& context);
     std::vector<int> vertices_around(int quad, int reach) const;
     double distance_of(int quad) const;
     void place(int v, const SurfacePoint& point);

@@ -18,7 +18,7 @@ constexpr double least_covering_jacobian = 0.15;
 }  // namespace
 
 /// Moves vertex `v` to where `cost` is least among places around it, if that is less than here.
-/// `cost` may give any number that is not below its argument for one that is not.
+/// `cost` is told the least so far, and may stop adding up once it has reached that.
 void SlidingQuads::search_around(int v, const std::function<double(double)>& cost) {
     constexpr int directions = 12;
     const Positions& X = frames_[0].vertices;
@@ -84,7 +84,7 @@ int SlidingQuads::unfold_pass(double worst_jacobian, double safe_jacobian, int r
             if (is_pinned_[at(v)] == 0)
                 search_around(v, [&](double most) { return cost(v, most); });
         }
-        folded += least_jacobian_of(q) <= 0 ? 1 : 0;
+        folded += is_folded(q) ? 1 : 0;
     }
     return folded;
 }

@@ -26,8 +26,8 @@ struct SampledFrame {
 };
 
 /// A quad mesh whose vertices slide over the surface, watched in several frames at once. The first
-/// frames are the references: folds and distances are looked at in these. Vertices on the boundary,
-/// and those that `cover_extremities` has put in place, stay.
+/// frames are the references: folds and distances are looked at in these. Vertices on the boundary
+/// stay; those that `cover_extremities` has put in place do until `release`.
 class SlidingQuads {
 public:
     /// `F` m x 3 triangles of the input; the first `reference_count` of `frames`, at least one, are

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <optional>
+#include <utility>
 
 #include "kinequad/core/error.h"
 #include "kinequad/core/index.h"
+#include "kinequad/extract/cells.h"
 #include "kinequad/extract/integer_points.h"
+#include "kinequad/extract/part_parallel_edges.h"
 #include "kinequad/extract/require_extractable.h"
 #include "kinequad/extract/split_parallel_edges.h"
 #include "kinequad/extract/trace_port.h"
@@ -106,6 +110,21 @@ SurfacePoint locate(const GridMap& map, const IntegerPoint& point) {
     return {map.mesh.parent[at(t)], weights / weights.sum()};
 }
 
+/// Whether a point lies on the boundary or on a line of the map.
+bool is_on_line(const GridMap& map, const IntegerPoint& point) {
+    const auto is_line = [&](int h) {
+        return map.topology.twin[at(h)] < 0 || (!map.is_line.empty() && map.is_line[at(h)] != 0);
+    };
+    if (point.place == Place::triangle) return false;
+    if (point.place == Place::edge) return is_line(point.half_edge);
+    int h = point.half_edge;
+    do {
+        if (is_line(h)) return true;
+        h = map.topology.rotate_counter_clockwise(h);
+    } while (h >= 0 && h != point.half_edge);
+    return h < 0;
+}
+
 /// The cells of a map, every vertex with the number of its odd coordinates.
 Cells extract_cells(const GridMap& map, const Context& context) {
     const std::int64_t lines = require_extractable(map);
@@ -118,15 +137,32 @@ Cells extract_cells(const GridMap& map, const Context& context) {
     cells.mesh.Q = assemble_faces(map, points, opposite);
     cells.mesh.vertex.reserve(at(points.count()));
     cells.edge_count = points.port.size() / 2;
+    cells.is_on_line.reserve(at(points.count()));
     cells.odd_coordinates.reserve(at(points.count()));
     for (int p = 0; p < points.count(); ++p) {
         const IntegerPoint& point = points.point[at(p)];
         cells.mesh.vertex.push_back(locate(map, point));
+        cells.is_on_line.push_back(is_on_line(map, point) ? 1 : 0);
         const auto is_odd = [](std::int64_t x) { return ((x >> GridMap::fraction_bits) & 1) != 0; };
         cells.odd_coordinates.push_back(
             static_cast<char>((is_odd(point.at.u) ? 1 : 0) + (is_odd(point.at.v) ? 1 : 0)));
     }
     return cells;
+}
+
+/// The wanted quads without two edges between the same two vertices: with rows split, which leaves
+/// all new vertices regular, or where that takes too many, as rows can wind all over the surface,
+/// with a few quads changed.
+QuadMesh without_parallel_edges(const Cells& doubled) {
+    constexpr double most_growth = 1.05;
+    constexpr double fair_price = 100;  // quads that are as bad as one edge parted
+    QuadMesh split = split_parallel_edges(doubled);
+    const double wanted = static_cast<double>(doubled.mesh.Q.rows()) / 4;
+    const double added = static_cast<double>(split.Q.rows()) - wanted;
+    if (added <= (most_growth - 1) * wanted) return split;
+    std::optional<PartedQuads> parted = part_parallel_edges(doubled);
+    return parted && fair_price * parted->parted_edges < added ? std::move(parted->mesh)
+                                                               : std::move(split);
 }
 
 /// The map with two cells for one along both axes.
@@ -145,8 +181,8 @@ QuadMesh extract_quads(const GridMap& map, const Context& context) {
     Cells cells = extract_cells(map, context);
     if (has_parallel_edges(cells)) {
         context.write_log(LogLevel::info,
-                          "extract: edges join the same two vertices; splitting rows of quads");
-        cells.mesh = split_parallel_edges(extract_cells(doubled(map), context));
+                          "extract: edges join the same two vertices; changing quads there");
+        cells.mesh = without_parallel_edges(extract_cells(doubled(map), context));
     }
     context.report_progress("extract", 1);
     return std::move(cells.mesh);

@@ -3,62 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <map>
 #include <utility>
 
-#include "kinequad/core/error.h"
 #include "kinequad/core/index.h"
 
 namespace kinequad::extraction {
 namespace {
 
-/// A wanted quad: its corners, the middles of its edges (k from corner k to k + 1), its centre.
-struct Cell {
-    std::array<int, 4> corner;
-    std::array<int, 4> middle;
-    int centre;
-};
-
-/// Puts the four quads around every centre together.
-std::vector<Cell> gather(const Cells& doubled) {
-    struct Quarter {
-        int corner = -1;
-        int after = -1;   ///< middle of the edge that leaves the corner
-        int before = -1;  ///< middle of the edge that arrives there
-    };
-    std::map<int, std::vector<Quarter>> around;
-    const Quads& Q = doubled.mesh.Q;
-    for (Eigen::Index q = 0; q < Q.rows(); ++q) {
-        for (int k = 0; k < 4; ++k) {
-            if (doubled.odd_coordinates[at(Q(q, k))] != 0) continue;
-            around[Q(q, (k + 2) % 4)].push_back({Q(q, k), Q(q, (k + 1) % 4), Q(q, (k + 3) % 4)});
-        }
-    }
-    std::vector<Cell> cells;
-    for (const auto& [centre, quarters] : around) {
-        if (quarters.size() != 4) return {};
-        Cell cell{{}, {}, centre};
-        std::size_t i = 0;
-        for (std::size_t k = 0; k < 4; ++k) {
-            cell.corner[k] = quarters[i].corner;
-            cell.middle[k] = quarters[i].after;
-            std::size_t next = 0;
-            while (next < 4 && quarters[next].before != quarters[i].after) ++next;
-            if (next == 4) return {};
-            i = next;
-        }
-        if (i != 0) return {};
-        cells.push_back(cell);
-    }
-    return cells;
-}
-
 class Splitting {
 public:
     explicit Splitting(const Cells& doubled)
-        : doubled_(doubled), cells_(gather(doubled)), row_(doubled.mesh.vertex.size()) {
+        : doubled_(doubled), cells_(gather_quads(doubled)), row_(doubled.mesh.vertex.size()) {
         for (std::size_t v = 0; v < row_.size(); ++v) row_[v] = static_cast<int>(v);
-        for (const Cell& cell : cells_) {
+        for (const WantedQuad& cell : cells_) {
             for (const std::size_t k : {0U, 1U}) {
                 const auto [low, high] =
                     std::minmax({root(cell.middle[k]), root(cell.middle[k + 2])});
@@ -66,14 +23,10 @@ public:
             }
         }
         size_.assign(row_.size(), 0);
-        for (const Cell& cell : cells_) {
+        for (const WantedQuad& cell : cells_) {
             for (const int middle : cell.middle) ++size_[at(root(middle))];
         }
         is_split_.assign(row_.size(), 0);
-    }
-
-    bool is_possible() const {
-        return 4 * cells_.size() == static_cast<std::size_t>(doubled_.mesh.Q.rows());
     }
 
     QuadMesh run() {
@@ -99,7 +52,7 @@ private:
     /// Splits the shortest row that crosses one of several edges between the same two vertices.
     bool split_one_more() {
         std::vector<Edge> edges;
-        for (const Cell& cell : cells_) {
+        for (const WantedQuad& cell : cells_) {
             for (std::size_t k = 0; k < 4; ++k) {
                 const int row = root(cell.middle[k]);
                 if (is_split_[at(row)] != 0) continue;
@@ -136,7 +89,7 @@ private:
 
     QuadMesh assemble() {
         std::vector<std::array<int, 4>> quads;
-        for (const Cell& cell : cells_) {
+        for (const WantedQuad& cell : cells_) {
             const auto& v = cell.corner;
             const auto& m = cell.middle;
             const bool first = is_split_[at(root(m[0]))] != 0;
@@ -155,28 +108,11 @@ private:
                 quads.push_back(v);
             }
         }
-        QuadMesh mesh;
-        std::vector<int> number(doubled_.mesh.vertex.size(), -1);
-        for (const auto& quad : quads) {
-            for (const int vertex : quad) number[at(vertex)] = 0;
-        }
-        for (std::size_t v = 0; v < number.size(); ++v) {
-            if (number[v] < 0) continue;
-            number[v] = static_cast<int>(mesh.vertex.size());
-            mesh.vertex.push_back(doubled_.mesh.vertex[v]);
-        }
-        mesh.Q.resize(static_cast<Eigen::Index>(quads.size()), 4);
-        for (std::size_t q = 0; q < quads.size(); ++q) {
-            for (std::size_t k = 0; k < 4; ++k) {
-                mesh.Q(static_cast<Eigen::Index>(q), static_cast<Eigen::Index>(k)) =
-                    number[at(quads[q][k])];
-            }
-        }
-        return mesh;
+        return mesh_of(quads, doubled_.mesh.vertex);
     }
 
     const Cells& doubled_;
-    std::vector<Cell> cells_;
+    std::vector<WantedQuad> cells_;
     std::vector<int> row_;
     std::vector<int> size_;
     std::vector<char> is_split_;
@@ -184,27 +120,6 @@ private:
 
 }  // namespace
 
-bool has_parallel_edges(const Cells& cells) {
-    const Quads& Q = cells.mesh.Q;
-    std::vector<std::pair<int, int>> edges;
-    edges.reserve(static_cast<std::size_t>(Q.size()));
-    for (Eigen::Index q = 0; q < Q.rows(); ++q) {
-        for (int k = 0; k < 4; ++k) {
-            edges.push_back(std::minmax({Q(q, k), Q(q, (k + 1) % 4)}));
-            if (edges.back().first == edges.back().second) return true;
-        }
-    }
-    std::sort(edges.begin(), edges.end());
-    const auto distinct = std::unique(edges.begin(), edges.end()) - edges.begin();
-    return static_cast<std::size_t>(distinct) < cells.edge_count;
-}
-
-QuadMesh split_parallel_edges(const Cells& doubled) {
-    Splitting splitting(doubled);
-    if (!splitting.is_possible()) {
-        throw VerificationError("a quad borders on itself; ask for more quads");
-    }
-    return splitting.run();
-}
+QuadMesh split_parallel_edges(const Cells& doubled) { return Splitting(doubled).run(); }
 
 }  // namespace kinequad::extraction

@@ -22,7 +22,7 @@ constexpr std::array<double, 6> densities = {1, 1.5, 2.5, 5, 12, 40};
 constexpr int most_rounds = 3;
 /// Bounds of the refinement where singularities are held back; no mesh gets more than twice as
 /// fine.
-constexpr int straight_rounds = 5;
+constexpr int straight_rounds = 4;
 constexpr int winding_rounds = 5;
 /// Counts, as shares of the wanted one, for which whole numbers are looked for until the map can be
 /// brought to them: close by, others come out.
@@ -160,6 +160,7 @@ bool arrive(MovingMap& map, double scale, int most_rounds, int most_triangles,
             map.x = relax_map(map.variables, system, shapes, arrival.x, relaxing_steps, context);
             return true;
         }
+        if (round + 1 == most_rounds) return false;
         const std::vector<int> sides =
             longest_sides(map.mesh, map.variables.corner_coordinates(arrival.x),
                           with_neighbours(map.mesh, arrival.tight));

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "kinequad/core/error.h"
+#include "kinequad/solve/minimum_degree_order.h"
 
 namespace kinequad {
 namespace {
@@ -268,7 +269,7 @@ private:
     Eigen::VectorXd whole_goal_;
     bool analysed_ = false;
     std::vector<int> tight_;
-    Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> factor_;
+    Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, MinimumDegreeOrder> factor_;
 };
 
 /// The triangles that hold back a map that stopped at `x`.

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-#include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 #include <cmath>
 
 #include "kinequad/core/error.h"
+#include "kinequad/solve/minimum_degree_order.h"
 
 namespace kinequad {
 namespace {
@@ -52,7 +52,7 @@ Matrix6 quadratic_matrix(const TargetShape& shape, const PartWeights& weights) {
 Permutation chains_last(const SparseMatrix& lower, int vertex_columns) {
     const SparseMatrix block = lower.topLeftCorner(vertex_columns, vertex_columns);
     Permutation inverse;
-    Eigen::AMDOrdering<int>()(block.selfadjointView<Eigen::Lower>(), inverse);
+    MinimumDegreeOrder()(block.selfadjointView<Eigen::Lower>(), inverse);
     const auto n = static_cast<int>(lower.rows());
     Permutation order(n);
     // AMD returns the permutation whose inverse puts the rows in elimination order.

@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "kinequad/core/error.h"
+#include "kinequad/solve/minimum_degree_order.h"
 
 namespace kinequad {
 
 template <class Scalar>
 struct SparseCholesky<Scalar>::Factor {
-    Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>> ldlt;
+    Eigen::SimplicialLDLT<Matrix, Eigen::Lower, MinimumDegreeOrder> ldlt;
 };
 
 template <class Scalar>

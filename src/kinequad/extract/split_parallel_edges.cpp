@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kinequad/core/index.h"
+#include "kinequad/extract/split_quad.h"
 
 namespace kinequad::extraction {
 namespace {
@@ -90,23 +91,10 @@ private:
     QuadMesh assemble() {
         std::vector<std::array<int, 4>> quads;
         for (const WantedQuad& cell : cells_) {
-            const auto& v = cell.corner;
-            const auto& m = cell.middle;
-            const bool first = is_split_[at(root(m[0]))] != 0;
-            const bool second = is_split_[at(root(m[1]))] != 0;
-            if (first && second) {
-                for (std::size_t k = 0; k < 4; ++k) {
-                    quads.push_back({v[k], m[k], cell.centre, m[(k + 3) % 4]});
-                }
-            } else if (first) {
-                quads.push_back({v[0], m[0], m[2], v[3]});
-                quads.push_back({m[0], v[1], v[2], m[2]});
-            } else if (second) {
-                quads.push_back({v[0], v[1], m[1], m[3]});
-                quads.push_back({m[3], m[1], v[2], v[3]});
-            } else {
-                quads.push_back(v);
-            }
+            const SplitEdges edges = {is_split_[at(root(cell.middle[0]))] != 0,
+                                      is_split_[at(root(cell.middle[1]))] != 0};
+            const auto pieces = split_quad(cell.corner, cell.middle, cell.centre, edges);
+            quads.insert(quads.end(), pieces.begin(), pieces.end());
         }
         return mesh_of(quads, doubled_.mesh.vertex);
     }

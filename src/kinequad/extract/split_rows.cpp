@@ -6,6 +6,7 @@
 #include "kinequad/core/error.h"
 #include "kinequad/core/index.h"
 #include "kinequad/extract/quad_topology.h"
+#include "kinequad/extract/split_quad.h"
 
 namespace kinequad {
 namespace {
@@ -75,24 +76,16 @@ QuadMesh split_rows_across_curve(
                 v[at(k)] = quads.Q(q, k);
                 m[at(k)] = middle_of[at(topology.edge[at(4 * q + k)])];
             }
+            int centre = -1;
             if (m[0] >= 0 && m[1] >= 0) {
-                const int centre = static_cast<int>(quads.vertex.size());
+                centre = static_cast<int>(quads.vertex.size());
                 quads.vertex.push_back(middle({quads.vertex[at(v[0])], quads.vertex[at(v[1])],
                                                quads.vertex[at(v[2])], quads.vertex[at(v[3])]},
                                               false));
                 is_on_curve.push_back(0);
-                for (std::size_t k = 0; k < 4; ++k) {
-                    split.push_back({v[k], m[k], centre, m[(k + 3) % 4]});
-                }
-            } else if (m[0] >= 0) {
-                split.push_back({v[0], m[0], m[2], v[3]});
-                split.push_back({m[0], v[1], v[2], m[2]});
-            } else if (m[1] >= 0) {
-                split.push_back({v[0], v[1], m[1], m[3]});
-                split.push_back({m[3], m[1], v[2], v[3]});
-            } else {
-                split.push_back(v);
             }
+            const auto pieces = extraction::split_quad(v, m, centre, {m[0] >= 0, m[1] >= 0});
+            split.insert(split.end(), pieces.begin(), pieces.end());
         }
         quads.Q.resize(static_cast<Eigen::Index>(split.size()), 4);
         for (std::size_t q = 0; q < split.size(); ++q) {

@@ -210,6 +210,19 @@ TEST(Distances, SeeTheSpikeAtItsQuad) {
     EXPECT_NEAR(*farthest, 0.12, 1e-12);
 }
 
+TEST(Distances, SeeTheSpikeThatTouchesAnotherPlaceInTheReference) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    Positions bent = grid.mesh.V;
+    bent.row(tip) << 0.95, 0.05, 0;
+    const std::vector<double> alone = grid.sliding({{bent, 1}}).distances({});
+    EXPECT_LT(*std::max_element(alone.begin(), alone.end()), 1e-12);
+    const std::vector<double> distances = grid.sliding({{bent, 1}, {grid.mesh.V, 1}}).distances({});
+    const auto farthest = std::max_element(distances.begin(), distances.end());
+    EXPECT_EQ(farthest - distances.begin(), 2 * 6 + 3);
+    EXPECT_NEAR(*farthest, 0.12, 1e-12);
+}
+
 TEST(RelaxPass, WeighsTheFrames) {
     // What is square in one frame is not in the sheared one: the heavier of them gets its way.
     const Grid grid(landscape(14, flat), 7, 0.2);

@@ -19,6 +19,10 @@ constexpr double least_edge = 0.1;
 /// Scaled Jacobian below which no move takes a quad in a reference for the sake of other frames.
 constexpr double least_kept_jacobian = 0.05;
 
+/// Edges of quads by which two points of the surface that coincide in one frame are apart in
+/// another, if they belong to different limbs.
+constexpr double most_apart = 2;
+
 /// Quads as triangles, cut along the shorter diagonal: triangles 2q and 2q + 1 of quad q.
 Triangles cut_quads(const Quads& Q, const Positions& X) {
     Triangles F(2 * Q.rows(), 3);
@@ -294,11 +298,31 @@ int SlidingQuads::relax_pass(Aim aim, double distance_limit, const Context& cont
     return moves;
 }
 
+/// The frame in which vertex `x` of the input and a point of the quads, cut to triangles `cut`, are
+/// farthest apart, if they are by more than `most_apart` edges: they lie on different limbs. -1
+/// where they stay together.
+int SlidingQuads::frame_that_parts(int x, const SurfacePoint& point, const Triangles& cut) const {
+    int parting = -1;
+    double farthest = most_apart;
+    for (int f = 0; f < static_cast<int>(frames_.size()); ++f) {
+        const Frame& frame = frames_[at(f)];
+        const Vector3 between =
+            frame.input.row(x).transpose() - position_of(point, frame.vertices, cut);
+        const double distance = between.norm() / frame.mean_edge;
+        if (distance <= farthest) continue;
+        farthest = distance;
+        parting = f;
+    }
+    return parting;
+}
+
 std::vector<SlidingQuads::Far> SlidingQuads::input_farther_than(double distance,
                                                                 const Reference& reference,
                                                                 const Context& context) const {
     const Frame& frame = reference.frame;
-    const ClosestPoints quads(frame.vertices, cut_quads(quads_.Q, frame.vertices));
+    const Triangles cut = cut_quads(quads_.Q, frame.vertices);
+    const ClosestPoints quads(frame.vertices, cut);
+    std::vector<std::optional<ClosestPoints>> quads_in(frames_.size());
     std::vector<Far> far;
     int hint = -1;
     for (int x = 0; x < topology_.vertex_count; ++x) {
@@ -306,8 +330,20 @@ std::vector<SlidingQuads::Far> SlidingQuads::input_farther_than(double distance,
         if (topology_.vertex_half_edge[at(x)] < 0) continue;
         const ClosestPoint closest = quads.find(frame.input.row(x).transpose(), hint);
         hint = closest.point.triangle;
-        if (closest.squared_distance > distance * distance) {
-            far.push_back({std::sqrt(closest.squared_distance), x, hint / 2});
+        double squared_distance = closest.squared_distance;
+        int quad = hint / 2;
+        // Where limbs touch, what is closest may belong to another one.
+        if (const int f = frame_that_parts(x, closest.point, cut); f >= 0) {
+            const Frame& apart = frames_[at(f)];
+            if (!quads_in[at(f)]) quads_in[at(f)].emplace(apart.vertices, cut);
+            const ClosestPoint own = quads_in[at(f)]->find(apart.input.row(x).transpose(), -1);
+            if (own.squared_distance > squared_distance) {
+                squared_distance = own.squared_distance;
+                quad = own.point.triangle / 2;
+            }
+        }
+        if (squared_distance > distance * distance) {
+            far.push_back({std::sqrt(squared_distance), x, quad});
         }
     }
     return far;

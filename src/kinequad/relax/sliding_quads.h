@@ -58,7 +58,8 @@ public:
 
     /// Distance between the two surfaces at every quad (q), at most over the references, in units
     /// of the input: seen from points of the quad, and from the vertices of the input that are
-    /// closest to it.
+    /// closest to it. Where these touch another limb in the reference, the distance in the frame
+    /// that parts the two counts.
     std::vector<double> distances(const Context& context) const;
 
     /// Keeps the corners of a quad where they are until `release`.
@@ -128,6 +129,7 @@ private:
         int vertex;
         int quad;
     };
+    int frame_that_parts(int x, const SurfacePoint& point, const Triangles& cut) const;
     std::vector<Far> input_farther_than(double distance, const Reference& reference,
                                         const Context& context) const;
 

@@ -21,7 +21,8 @@ public:
         using Index = std::int64_t;
         Eigen::SparseMatrix<double, Eigen::ColMajor, Index> wide;
         {
-            const Eigen::SparseMatrix<typename Matrix::Scalar> whole = matrix;
+            Eigen::SparseMatrix<typename Matrix::Scalar> whole;
+            whole = matrix;
             wide = whole.cwiseAbs();
         }
         Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, Index> wide_order;

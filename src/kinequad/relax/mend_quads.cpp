@@ -102,9 +102,7 @@ double SlidingQuads::distance_of(int quad) const {
             hint = closest.point.triangle;
             return std::sqrt(closest.squared_distance);
         };
-        // On the shorter diagonal, along which quads are cut.
-        const std::size_t cut = (p[0] - p[2]).squaredNorm() <= (p[1] - p[3]).squaredNorm() ? 0 : 1;
-        const Vector3 middle = (p[cut] + p[cut + 2]) / 2;
+        const Vector3 middle = (p[0] + p[1] + p[2] + p[3]) / 4;
         double here = distance_at(middle);
         for (std::size_t k = 0; k < 4; ++k) {
             here = std::max(here, distance_at((p[k] + p[(k + 1) % 4]) / 2));

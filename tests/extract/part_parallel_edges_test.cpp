@@ -15,7 +15,7 @@ namespace {
 using extraction::Cells;
 using extraction::part_parallel_edges;
 
-constexpr std::array<std::array<int, 4>, 6> cube = {
+constexpr std::array<std::array<int, 4>, 6> cube_faces = {
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
 /// Two cubes slit open along their edge 0-1 and joined there: a sphere of twelve quads in which two
@@ -28,7 +28,7 @@ Cells joined_cubes(std::array<bool, 2> is_on_line) {
     std::vector<std::array<int, 4>> quarters;
     std::array<int, 2> slit_middle{};
     for (int c = 0; c < 2; ++c) {
-        for (const auto& face : cube) {
+        for (const auto& face : cube_faces) {
             std::array<int, 4> v{};
             std::array<int, 4> m{};
             for (std::size_t k = 0; k < 4; ++k) v[k] = face[k] + (c == 1 && face[k] > 1 ? 6 : 0);

@@ -146,6 +146,14 @@ TEST(RepairMesh, LeavesASoundMeshAlone) {
     EXPECT_TRUE(repair.copied_vertices.empty());
 }
 
+TEST(RepairMesh, NamesVerticesWithoutTriangles) {
+    const Triangles F = triangles({{0, 3, 4}});
+    const MeshRepair repair = repair_mesh(F, 6, none(F));
+    EXPECT_EQ(repair.F, F);
+    ASSERT_EQ(repair.actions.size(), 1U);
+    EXPECT_NE(repair.actions[0].find("1, 2, 5"), std::string::npos) << repair.actions[0];
+}
+
 TEST(RepairMesh, MendsConnectivity) {
     EXPECT_TRUE(check_repaired(triangles({{0, 1, 2}, {2, 1, 1}}), 3).is_accepted());
     EXPECT_TRUE(check_repaired(triangles({{0, 1, 2}, {2, 1, 3}, {1, 0, 2}}), 4).is_accepted());

@@ -24,6 +24,15 @@ public:
     }
 
     MeshRepair run() {
+        report("passed over vertices without triangles", [&] {
+            std::vector<char> is_used(at(vertex_count_), 0);
+            for (Eigen::Index c = 0; c < F_.size(); ++c) is_used[at(F_.data()[c])] = 1;
+            std::vector<int> unused;
+            for (int v = 0; v < vertex_count_; ++v) {
+                if (is_used[at(v)] == 0) unused.push_back(v);
+            }
+            return unused;
+        }());
         drop("removed triangles that name a vertex twice", [&] {
             std::vector<int> collapsed;
             for (int t = 0; t < F_.rows(); ++t) {

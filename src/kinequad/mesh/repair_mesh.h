@@ -25,8 +25,9 @@ struct MeshRepair {
 /// Mends in `F` (m x 3, over `vertex_count` vertices) what can be mended without a change of the
 /// surface or of what corresponds to what in the frames: triangles that name a vertex twice or
 /// repeat another go, parts are oriented as most of their triangles, vertices whose triangles form
-/// several fans are copied, edges without length are contracted, triangles without area that are
-/// left are flipped away. What cannot be mended stays, for `check_mesh` to name.
+/// several fans are copied, vertices without triangles are passed over, edges without length are
+/// contracted, triangles without area that are left are flipped away. What cannot be mended stays,
+/// for `check_mesh` to name.
 MeshRepair repair_mesh(const Triangles& F, int vertex_count, const MeshDegeneracies& degeneracies);
 
 }  // namespace kinequad

@@ -311,6 +311,38 @@ TEST(Regions, AreWhatMovedAndGoBackAlone) {
     EXPECT_EQ(sliding.regions_moved_since(covered), Regions{regions[0]});
 }
 
+TEST(CloseGaps, CoversASpikeThatOnlyAnotherFrameShows) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    Positions bent = grid.mesh.V;
+    bent(tip, 2) = 0;
+    SlidingQuads sliding = grid.sliding({{bent, 1}, {grid.mesh.V, 1}});
+    sliding.close_gaps(0.45, {});
+    grid.expect_kept(sliding.quads());
+    EXPECT_GT(grid.least_jacobian(sliding.quads(), bent), 0.1);
+    Grid after = grid;
+    after.quads = sliding.quads();
+    const std::vector<double> distances = after.sliding({{grid.mesh.V, 1}}).distances({});
+    EXPECT_LT(*std::max_element(distances.begin(), distances.end()), 0.45 / 6);
+}
+
+TEST(CloseGaps, LeavesQuadsAloneThatAreNear) {
+    const Grid grid(landscape(14, hill), 7, 0.3);
+    SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}, {sheared(grid.mesh.V, 0.5), 1}});
+    sliding.close_gaps(0.45, {});
+    EXPECT_TRUE(sliding.regions_moved_since({grid.quads.vertex, {}}).empty());
+}
+
+TEST(CutQuads, CutsAlongTheShorterDiagonal) {
+    Positions X(5, 3);
+    X << 0, 0, 0, 3, 0, 0, 4, 1, 0, 1, 1, 0, 9, 9, 9;
+    Quads Q(2, 4);
+    Q << 0, 1, 2, 3, 1, 2, 3, 0;
+    Triangles expected(4, 3);
+    expected << 1, 2, 3, 1, 3, 0, 1, 2, 3, 1, 3, 0;
+    EXPECT_EQ(cut_quads(Q, X), expected);
+}
+
 TEST(RelaxQuads, CoversATipAndLeavesTheRestSquare) {
     int tip = -1;
     const Grid grid = spiked(&tip);

@@ -17,29 +17,34 @@ constexpr double least_covering_jacobian = 0.15;
 
 }  // namespace
 
-/// Moves vertex `v` to where `cost` is least among places around it, if that is less than here.
-/// `cost` is told the least so far, and may stop adding up once it has reached that.
-void SlidingQuads::search_around(int v, const std::function<double(double)>& cost) {
-    constexpr int directions = 12;
+/// Moves vertex `v` to where `cost` is least among places around it, if that is less than here, and
+/// returns whether it is. `cost` is told the least so far, and may stop adding up once it has
+/// reached that.
+bool SlidingQuads::search_around(int v, const Steps& steps,
+                                 const std::function<double(double)>& cost) {
     const Positions& X = frames_[0].vertices;
     const double size = (X.row(neighbour(*corners_of(v).begin(), 1)) - X.row(v)).norm();
     const SurfacePoint before = quads_.vertex[at(v)];
     SurfacePoint best = before;
+    bool is_moved = false;
     double least = cost(std::numeric_limits<double>::infinity());
-    for (const double length : {0.9, 0.5, 0.25, 0.12, 0.06, 0.03}) {
-        for (int i = 0; i < directions; ++i) {
-            const double angle = 2 * std::numbers::pi * (i + 5 * length) / directions;
+    for (const double length : steps.lengths) {
+        const SurfacePoint start = steps.go_on ? best : before;
+        for (int i = 0; i < steps.directions; ++i) {
+            const double angle = 2 * std::numbers::pi * (i + 5 * length) / steps.directions;
             const Vector2 step = length * size * Vector2(std::cos(angle), std::sin(angle));
-            place(v, walked(v, before, step));
+            place(v, walked(v, start, step));
             const bool is_apart = slides_[at(v)] == 0 || shortest_edge(v) > 0.1 * size;
-            const double value = cost(least);
-            if (is_apart && value < least) {
+            const double value = is_apart ? cost(least) : least;
+            if (value < least) {
                 least = value;
                 best = quads_.vertex[at(v)];
+                is_moved = true;
             }
         }
     }
     place(v, best);
+    return is_moved;
 }
 
 /// The corners of a quad and all vertices up to `reach` quads farther on, in ascending order.
@@ -82,7 +87,7 @@ int SlidingQuads::unfold_pass(double worst_jacobian, double safe_jacobian, int r
         context.check_cancelled();
         for (const int v : vertices_around(q, reach)) {
             if (is_pinned_[at(v)] == 0)
-                search_around(v, [&](double most) { return cost(v, most); });
+                search_around(v, {}, [&](double most) { return cost(v, most); });
         }
         folded += is_folded(q) ? 1 : 0;
     }
@@ -131,7 +136,7 @@ int SlidingQuads::hug_surface(double limit, int reach, const Context& context) {
         if (distance_of(q) <= limit) continue;
         for (const int v : vertices_around(q, reach)) {
             if (is_pinned_[at(v)]) continue;
-            search_around(v, [&](double most) {
+            search_around(v, {}, [&](double most) {
                 double sum = cost_around(v, barrier) / static_cast<double>(frames_.size());
                 for (const int c : corners_of(v)) {
                     if (sum >= most) break;
@@ -179,7 +184,7 @@ bool SlidingQuads::move_onto(int v, const SurfacePoint& goal) {
         for (const auto& moved : before) {
             const int w = moved.first;
             if (w == v || is_pinned_[at(w)]) continue;
-            search_around(w, [&](double) { return cost_around(w, barrier); });
+            search_around(w, {}, [&](double) { return cost_around(w, barrier); });
         }
     }
     if (least_around() >= enough) return true;

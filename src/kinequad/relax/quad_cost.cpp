@@ -34,6 +34,22 @@ std::array<CornerShape, 4> corner_shapes(const QuadCorners& p) {
 
 Vector3 area_normal(const QuadCorners& p) { return (p[2] - p[0]).cross(p[3] - p[1]); }
 
+std::size_t end_of_cut(const QuadCorners& p) {
+    return (p[0] - p[2]).squaredNorm() <= (p[1] - p[3]).squaredNorm() ? 0 : 1;
+}
+
+Triangles cut_quads(const Quads& Q, const Positions& X) {
+    Triangles F(2 * Q.rows(), 3);
+    for (Eigen::Index q = 0; q < Q.rows(); ++q) {
+        QuadCorners p;
+        for (int i = 0; i < 4; ++i) p[static_cast<std::size_t>(i)] = X.row(Q(q, i)).transpose();
+        const int k = static_cast<int>(end_of_cut(p));
+        F.row(2 * q) << Q(q, k), Q(q, k + 1), Q(q, k + 2);
+        F.row(2 * q + 1) << Q(q, k), Q(q, k + 2), Q(q, (k + 3) % 4);
+    }
+    return F;
+}
+
 double least_scaled_jacobian(const QuadCorners& p) {
     double least = 1;
     for (const CornerShape& corner : corner_shapes(p)) least = std::min(least, corner.jacobian);

@@ -18,6 +18,13 @@ struct FoldBarrier {
 /// Normal of a quad by its diagonals; its length is twice the area of the quad's shadow along it.
 Vector3 area_normal(const QuadCorners& corners);
 
+/// The corner, 0 or 1, at which the shorter diagonal of a quad begins; it ends two corners on.
+std::size_t end_of_cut(const QuadCorners& corners);
+
+/// Quads `Q` over vertices `X` as triangles, cut along the shorter diagonal: 2q and 2q + 1 are the
+/// halves of quad q.
+Triangles cut_quads(const Quads& Q, const Positions& X);
+
 /// Smallest scaled Jacobian over the corners, in [-1, 1]; positive where the quad is not folded.
 double least_scaled_jacobian(const QuadCorners& corners);
 

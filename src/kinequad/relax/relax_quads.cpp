@@ -18,7 +18,7 @@ constexpr double safe_jacobian = 0.15;
 constexpr double least_jacobian = 0.05;
 constexpr int releasing_pass = 8;
 constexpr int most_unfolding_passes = 16;
-constexpr int fitting_rounds = 10;
+constexpr int most_fitting_rounds = 10;
 constexpr int most_rounds_in_vain = 4;
 
 /// The references, then the other frames.
@@ -105,9 +105,13 @@ Fit keep_better_regions(SlidingQuads& sliding, const Fit& before, double limit,
 Fit fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
     unfold(sliding, releasing_pass, context);
     Fit best = look_at(sliding, limit, context);
+    // One round brings most; more are for quads that stay folded.
+    const auto is_done = [&](int round) {
+        return best.folded == 0 && (round > 0 || best.distance <= limit);
+    };
     int rounds_in_vain = 0;
-    for (int round = 0; round < fitting_rounds && rounds_in_vain < most_rounds_in_vain &&
-                        (best.folded > 0 || best.distance > limit);
+    for (int round = 0;
+         round < most_fitting_rounds && rounds_in_vain < most_rounds_in_vain && !is_done(round);
          ++round) {
         // Every other round goes on from the best quads with all vertices free, the rest from the
         // last ones: what is worse at first may lead farther.
@@ -188,6 +192,7 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
     }
     const int folded =
         settle(sliding, fit_surface(sliding, limit, context), limit, options.rounds, context);
+    sliding.close_gaps(options.gap_limit, context);
     if (folded > 0) {
         context.write_log(
             LogLevel::warning,

@@ -21,6 +21,9 @@ struct RelaxOptions {
     /// Vertices of the input farther than this from the quads, in edge lengths of the quads, get a
     /// quad vertex of their own: finger tips, ears.
     double distance_limit = 0.4;
+    /// At last quads and input are brought closer together where they are farther apart than most
+    /// of this in any sampled frame, in edge lengths of the quads.
+    double gap_limit = 0.45;
     /// Edges of lines of the surface, such as the line of symmetry or features: quad vertices on
     /// them slide along them.
     std::vector<int> line_edges = {};

@@ -23,19 +23,6 @@ constexpr double least_kept_jacobian = 0.05;
 /// another, if they belong to different limbs.
 constexpr double most_apart = 2;
 
-/// Quads as triangles, cut along the shorter diagonal: triangles 2q and 2q + 1 of quad q.
-Triangles cut_quads(const Quads& Q, const Positions& X) {
-    Triangles F(2 * Q.rows(), 3);
-    for (Eigen::Index q = 0; q < Q.rows(); ++q) {
-        const double first = (X.row(Q(q, 0)) - X.row(Q(q, 2))).squaredNorm();
-        const double second = (X.row(Q(q, 1)) - X.row(Q(q, 3))).squaredNorm();
-        const int k = first <= second ? 0 : 1;
-        F.row(2 * q) << Q(q, k), Q(q, k + 1), Q(q, k + 2);
-        F.row(2 * q + 1) << Q(q, k), Q(q, k + 2), Q(q, (k + 3) % 4);
-    }
-    return F;
-}
-
 }  // namespace
 
 SlidingQuads::SlidingQuads(const QuadMesh& quads, const Topology& topology,

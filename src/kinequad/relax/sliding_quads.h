@@ -98,6 +98,11 @@ public:
     /// away.
     int hug_surface(double limit, int reach, const Context& context);
 
+    /// Brings quads and input together where they are farther apart than most of `limit`, in mean
+    /// lengths of the quads' edges, in any frame: vertices there search for places that are closer
+    /// in all frames and hardly cost angles. Sets free what is held.
+    void close_gaps(double limit, const Context& context);
+
     /// Mean length of the quads' edges in the first reference, in units of the input.
     double mean_edge_length() const { return mean_edge_length(frames_[0]); }
 
@@ -123,6 +128,13 @@ private:
         ClosestPoints surface;
     };
 
+    class Gaps;
+    /// Steps of a search for a better place.
+    struct Steps {
+        int directions = 12;
+        std::vector<double> lengths = {0.9, 0.5, 0.25, 0.12, 0.06, 0.03};  ///< in sides of the quad
+        bool go_on = false;  ///< each length around the best place so far, not around the first
+    };
     /// A vertex of the input and the quad that is closest to it.
     struct Far {
         double distance;
@@ -149,7 +161,8 @@ private:
     double mean_edge_length(const Frame& frame) const;
     double watched_distance(int v) const;
     bool improve(int v, Aim aim, double distance_limit);
-    void search_around(int v, const std::function<double(double)>& cost);
+    bool search_around(int v, const Steps& steps, const std::function<double(double)>& cost);
+    bool close_gaps_at(int v, Gaps& gaps);
     bool move_onto(int v, const SurfacePoint& goal);
     int nearest_in_all_frames(int x) const;
     int cover_extremities_in(const Reference& reference, double limit, const Context& context);

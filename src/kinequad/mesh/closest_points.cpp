@@ -119,7 +119,9 @@ struct ClosestPoints::Search {
         Vector3 point;
         double slack;  ///< what rounding may add to a distance, in the box of half-width 1
         ClosestPoint best;
+        double enough = -1;  ///< squared distance at which nothing better is looked for
 
+        bool is_done() const { return best.point.triangle >= 0 && best.squared_distance <= enough; }
         float radius() const {
             const double scaled = std::sqrt(best.squared_distance) * search->scale;
             return round_up(scaled * (1 + margin) + slack);
@@ -139,10 +141,34 @@ struct ClosestPoints::Search {
     static bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
         Query& query = *static_cast<Query*>(arguments->userPtr);
         if (!query.improve(static_cast<int>(arguments->primID))) return false;
-        const float radius = query.radius();
+        const float radius = query.is_done() ? 0 : query.radius();
         if (radius >= arguments->query->radius) return false;
         arguments->query->radius = radius;
         return true;
+    }
+
+    /// The nearest point, or one that is not farther than the root of `enough`.
+    ClosestPoint nearest(const Vector3& point, int hint, double enough) const {
+        const Vector3 scaled = (point - center) * scale;
+        const double reach = scaled.cwiseAbs().maxCoeff();
+        Query query{this, point, margin * (1 + reach), {}, enough};
+        if (hint >= 0 && hint < F.rows()) query.improve(hint);
+        if (query.is_done()) return query.best;
+        if (!(reach < farthest)) {
+            for (int t = 0; t < F.rows(); ++t) query.improve(t);
+            return query.best;
+        }
+        RTCPointQuery sphere;
+        sphere.x = static_cast<float>(scaled[0]);
+        sphere.y = static_cast<float>(scaled[1]);
+        sphere.z = static_cast<float>(scaled[2]);
+        sphere.time = 0;
+        sphere.radius = query.best.point.triangle >= 0 ? query.radius()
+                                                       : std::numeric_limits<float>::infinity();
+        RTCPointQueryContext context;
+        rtcInitPointQueryContext(&context);
+        rtcPointQuery(scene, &sphere, &context, nullptr, &query);
+        return query.best;
     }
 };
 
@@ -164,25 +190,14 @@ void ClosestPoints::update(const Positions& V, const Triangles& F) {
 }
 
 ClosestPoint ClosestPoints::find(const Vector3& point, int hint) const {
-    const Vector3 scaled = (point - search_->center) * search_->scale;
-    const double reach = scaled.cwiseAbs().maxCoeff();
-    Search::Query query{search_.get(), point, margin * (1 + reach), {}};
-    if (hint >= 0 && hint < search_->F.rows()) query.improve(hint);
-    if (!(reach < farthest)) {
-        for (int t = 0; t < search_->F.rows(); ++t) query.improve(t);
-        return query.best;
-    }
-    RTCPointQuery sphere;
-    sphere.x = static_cast<float>(scaled[0]);
-    sphere.y = static_cast<float>(scaled[1]);
-    sphere.z = static_cast<float>(scaled[2]);
-    sphere.time = 0;
-    sphere.radius =
-        query.best.point.triangle >= 0 ? query.radius() : std::numeric_limits<float>::infinity();
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(search_->scene, &sphere, &context, nullptr, &query);
-    return query.best;
+    return search_->nearest(point, hint, -1);
+}
+
+std::optional<ClosestPoint> ClosestPoints::find_beyond(double squared_distance,
+                                                       const Vector3& point, int hint) const {
+    const ClosestPoint found = search_->nearest(point, hint, squared_distance);
+    if (found.squared_distance <= squared_distance) return std::nullopt;
+    return found;
 }
 
 const Positions& ClosestPoints::positions() const { return search_->V; }

@@ -27,6 +27,9 @@ struct EdgePoint {
     }
 };
 
+double square(double x) { return x * x; }
+double eighth_power(double squared) { return square(square(squared)); }
+
 double squared_distance_to_quad(const Vector3& point, const QuadCorners& p) {
     const std::size_t k = end_of_cut(p);
     return std::min(
@@ -83,9 +86,10 @@ public:
     /// What changes as a vertex moves, and what is near.
     struct Surroundings {
         std::vector<int> quads;                ///< that change
-        std::vector<int> patch;                ///< these and the ones around them
+        std::vector<int> patch;                ///< these first, and the ones around them
         std::vector<std::vector<int>> points;  ///< f: of the input, nearest to those that change
         std::vector<std::size_t> frames;       ///< the one with the largest distance first
+        double misfit = 0;                     ///< over all frames, before anything moves
     };
 
     Surroundings surroundings(int v) const {
@@ -98,6 +102,9 @@ public:
             }
         }
         sort_once(around.patch);
+        std::stable_partition(around.patch.begin(), around.patch.end(), [&](int q) {
+            return std::binary_search(around.quads.begin(), around.quads.end(), q);
+        });
         std::vector<std::pair<double, std::size_t>> order;
         for (std::size_t f = 0; f < views_.size(); ++f) {
             const View& view = views_[f];
@@ -111,6 +118,7 @@ public:
                 }
             }
             order.emplace_back(-farthest / view.unit, f);
+            around.misfit += eighth_power(square(farthest / view.unit));
         }
         std::sort(order.begin(), order.end());
         for (const auto& [negative, f] : order) around.frames.push_back(f);
@@ -123,12 +131,11 @@ public:
         double sum = 0;
         for (std::size_t i = 0; i < frames && sum < enough; ++i) {
             const std::size_t f = around.frames[i];
-            const double squared_unit = views_[f].unit * views_[f].unit;
+            const double squared_unit = square(views_[f].unit);
             const double left = enough - sum;
             const double too_far =
                 left < infinity ? squared_unit * std::sqrt(std::sqrt(left)) : infinity;
-            const double squared = squared_distance(around, f, too_far) / squared_unit;
-            sum += squared * squared * squared * squared;
+            sum += eighth_power(squared_distance(around, f, too_far) / squared_unit);
         }
         return sum;
     }
@@ -141,8 +148,9 @@ public:
                 view.of_quad[at(q)] = std::sqrt(squared_distance_of(q, f));
                 view.points_of[at(q)].clear();
             }
+            const double near_distance = near_share * sliding_.frames_[f].mean_edge;
             for (const int x : around.points[f]) {
-                const auto [squared, q] = nearest_in(around.patch, x, f, 0);
+                const auto [squared, q] = nearest_in(around.patch, x, f, square(near_distance));
                 view.nearest[at(x)] = q;
                 view.points_of[at(q)].push_back(x);
                 view.of_point[at(x)] = std::sqrt(squared);
@@ -250,33 +258,39 @@ private:
 
     /// Largest squared distance of points of a quad to the input: on the sides that are its own, on
     /// the shorter diagonal and inside the two triangles; on more of them where one is not near.
+    /// What is near counts as `near_share`.
     double squared_distance_of(int quad, std::size_t f) const {
-        constexpr double near = 0.15;
         const Frame& frame = sliding_.frames_[f];
         const QuadCorners p = sliding_.corners_in(frame, quad);
         const std::size_t k = end_of_cut(p);
-        int hint = sliding_.quads_.vertex[at(sliding_.quads_.Q(quad, 0))].triangle;
-        double farthest = 0;
-        const auto ask = [&](const Vector3& point) {
-            const ClosestPoint closest = views_[f].surface->find(point, hint);
-            hint = closest.point.triangle;
-            farthest = std::max(farthest, closest.squared_distance);
-        };
-        const auto ask_between = [&](const Vector3& a, const Vector3& b,
-                                     std::initializer_list<double> shares) {
-            for (const double share : shares) ask(a + share * (b - a));
+        const double near_distance = near_share * frame.mean_edge;
+        double farthest = square(near_distance);
+        const auto ask = [&](const Vector3& point, std::size_t nearest_corner) {
+            const int v = sliding_.quads_.Q(quad, static_cast<int>(nearest_corner));
+            const int hint = sliding_.quads_.vertex[at(v)].triangle;
+            const auto beyond = views_[f].surface->find_beyond(farthest, point, hint);
+            if (beyond) farthest = beyond->squared_distance;
+            return beyond.has_value();
         };
         const auto ask_on_lines = [&](std::initializer_list<double> shares) {
-            for (std::size_t i = 0; i < 4; ++i) {
-                if (owns_side_[at(4 * quad) + i] != 0) ask_between(p[i], p[(i + 1) % 4], shares);
+            bool is_any_far = false;
+            for (std::size_t i = 0; i < 5; ++i) {
+                if (i < 4 && owns_side_[at(4 * quad) + i] == 0) continue;
+                const std::size_t a = i < 4 ? i : k;
+                const std::size_t b = i < 4 ? (i + 1) % 4 : k + 2;
+                for (const double share : shares) {
+                    const Vector3 point = p[a] + share * (p[b] - p[a]);
+                    if (ask(point, share < 0.5 ? a : b)) is_any_far = true;
+                }
             }
-            ask_between(p[k], p[k + 2], shares);
+            return is_any_far;
         };
-        ask_on_lines({0.25, 0.5, 0.75});
-        ask((p[k] + p[k + 1] + p[k + 2]) / 3);
-        ask((p[k] + p[k + 2] + p[(k + 3) % 4]) / 3);
-        const double near_distance = near * frame.mean_edge;
-        if (farthest > near_distance * near_distance) ask_on_lines({0.125, 0.375, 0.625, 0.875});
+        const bool is_line_far = ask_on_lines({0.5, 0.25, 0.75});
+        const bool is_first_far = ask((p[k] + p[k + 1] + p[k + 2]) / 3, k + 1);
+        const bool is_second_far = ask((p[k] + p[k + 2] + p[(k + 3) % 4]) / 3, (k + 3) % 4);
+        if (is_line_far || is_first_far || is_second_far) {
+            ask_on_lines({0.125, 0.375, 0.625, 0.875});
+        }
         return farthest;
     }
 
@@ -293,18 +307,21 @@ bool SlidingQuads::close_gaps_at(int v, Gaps& gaps) {
     constexpr std::size_t compared_frames = 3;
     constexpr double shape_weight = 3;
     constexpr double least_kept_jacobian = 0.1;
-    static const Steps steps{8, {0.4, 0.16, 0.06}, true};
+    static const Steps steps{6, {0.4, 0.16, 0.06}, true};
     const Gaps::Surroundings around = gaps.surroundings(v);
     const SurfacePoint before = quads_.vertex[at(v)];
     const double least_jacobian = std::min(least_jacobian_around(v), least_kept_jacobian);
     const double longest = std::max(longest_edge(v), most_stretch);
+    const auto shape_cost = [&] {
+        return shape_weight * cost_around(v, relaxing_barrier) /
+               static_cast<double>(frames_.size());
+    };
     const auto cost = [&](std::size_t frames, double enough) {
-        const double shape =
-            shape_weight * cost_around(v, relaxing_barrier) / static_cast<double>(frames_.size());
+        const double shape = shape_cost();
         if (shape >= enough) return shape;
         return shape + gaps.misfit(around, std::min(frames, frames_.size()), enough - shape);
     };
-    const double cost_before = cost(frames_.size(), infinity);
+    const double cost_before = shape_cost() + around.misfit;
     const bool is_moved = search_around(v, steps, [&](double least) {
         if (least_jacobian_around(v) < least_jacobian || longest_edge(v) > longest) return least;
         return cost(compared_frames, least);

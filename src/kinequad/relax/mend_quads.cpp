@@ -95,36 +95,38 @@ int SlidingQuads::unfold_pass(double worst_jacobian, double safe_jacobian, int r
 }
 
 /// How far a quad is from the input, at most, in the references: in its middle and that of its
-/// edges, and where these are not near, halfway on to the corners too.
-double SlidingQuads::distance_of(int quad) const {
-    constexpr double near = 0.15;
+/// edges, and where these are not near, halfway on to the corners too. Distances below
+/// `least_told`, in mean lengths of the quads' edges, count as that.
+double SlidingQuads::distance_of(int quad, double least_told) const {
     double farthest = 0;
     for (const Reference& reference : references_) {
         const QuadCorners p = corners_in(reference.frame, quad);
         int hint = quads_.vertex[at(quads_.Q(quad, 0))].triangle;
-        const auto distance_at = [&](const Vector3& point) {
-            const ClosestPoint closest = reference.surface.find(point, hint);
-            hint = closest.point.triangle;
-            return std::sqrt(closest.squared_distance);
+        const double least = least_told * reference.frame.mean_edge;
+        double squared = least * least;
+        const auto ask = [&](const Vector3& point) {
+            const auto beyond = reference.surface.find_beyond(squared, point, hint);
+            if (!beyond) return;
+            squared = beyond->squared_distance;
+            hint = beyond->point.triangle;
         };
         const Vector3 middle = (p[0] + p[1] + p[2] + p[3]) / 4;
-        double here = distance_at(middle);
-        for (std::size_t k = 0; k < 4; ++k) {
-            here = std::max(here, distance_at((p[k] + p[(k + 1) % 4]) / 2));
-        }
-        if (here > near * reference.frame.mean_edge) {
+        ask(middle);
+        for (std::size_t k = 0; k < 4; ++k) ask((p[k] + p[(k + 1) % 4]) / 2);
+        const double near_distance = near_share * reference.frame.mean_edge;
+        if (squared > near_distance * near_distance) {
             for (std::size_t k = 0; k < 4; ++k) {
                 const Vector3& next = p[(k + 1) % 4];
                 for (const Vector3& point :
                      {Vector3((middle + p[k]) / 2), Vector3((3 * p[k] + next) / 4),
                       Vector3((p[k] + 3 * next) / 4)}) {
-                    here = std::max(here, distance_at(point));
+                    ask(point);
                 }
             }
         }
-        farthest = std::max(farthest, here);
+        farthest = std::max(farthest, squared);
     }
-    return farthest;
+    return std::sqrt(farthest);
 }
 
 int SlidingQuads::hug_surface(double limit, int reach, const Context& context) {

@@ -211,7 +211,7 @@ void SlidingQuads::release() { is_pinned_ = stays_; }
 double SlidingQuads::watched_distance(int v) const {
     double farthest = 0;
     for (const int c : corners_of(v)) {
-        if (is_watched_[at(c / 4)]) farthest = std::max(farthest, distance_of(c / 4));
+        if (is_watched_[at(c / 4)]) farthest = std::max(farthest, distance_of(c / 4, near_share));
     }
     return farthest;
 }
@@ -275,7 +275,7 @@ int SlidingQuads::relax_pass(Aim aim, double distance_limit, const Context& cont
     // Distances are slow: they are asked for only where quads are about to leave the surface.
     is_watched_.resize(at(static_cast<int>(quads_.Q.rows())));
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-        is_watched_[at(q)] = distance_of(q) > 0.5 * distance_limit ? 1 : 0;
+        is_watched_[at(q)] = distance_of(q, near_share) > 0.5 * distance_limit ? 1 : 0;
     }
     int moves = 0;
     for (int v = 0; v < static_cast<int>(quads_.vertex.size()); ++v) {

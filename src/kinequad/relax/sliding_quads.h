@@ -19,6 +19,9 @@ inline constexpr FoldBarrier relaxing_barrier;
 /// Length that no move gives an edge in any frame, in mean lengths.
 inline constexpr double most_stretch = 3;
 
+/// Distances between quads and input below this are near, in mean lengths of the quads' edges.
+inline constexpr double near_share = 0.15;
+
 /// A frame of the input that is looked at, and how much it counts.
 struct SampledFrame {
     Positions input;  ///< n x 3
@@ -167,7 +170,7 @@ private:
     int nearest_in_all_frames(int x) const;
     int cover_extremities_in(const Reference& reference, double limit, const Context& context);
     std::vector<int> vertices_around(int quad, int reach) const;
-    double distance_of(int quad) const;
+    double distance_of(int quad, double least_told = 0) const;
     void place(int v, const SurfacePoint& point);
     void link_corners();
     void pin_boundary();

@@ -66,6 +66,15 @@ void expect_same_as_brute_force(const TriangleMesh& mesh, const ClosestPoints& s
         ASSERT_EQ(found.squared_distance, expected.squared_distance) << "point " << i;
         ASSERT_EQ(found.point.triangle, expected.point.triangle) << "point " << i;
         ASSERT_EQ(found.point.barycentric, expected.point.barycentric) << "point " << i;
+        const double exact = expected.squared_distance;
+        const int hint = i % static_cast<int>(mesh.F.rows());
+        ASSERT_FALSE(surface.find_beyond(exact, p, hint)) << "point " << i;
+        ASSERT_FALSE(surface.find_beyond(2 * exact, p)) << "point " << i;
+        if (exact == 0) continue;
+        const auto beyond = surface.find_beyond(std::nextafter(exact, 0.0), p, hint);
+        ASSERT_TRUE(beyond) << "point " << i;
+        ASSERT_EQ(beyond->squared_distance, exact) << "point " << i;
+        ASSERT_EQ(beyond->point.triangle, expected.point.triangle) << "point " << i;
     }
 }
 

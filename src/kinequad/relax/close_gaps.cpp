@@ -117,11 +117,23 @@ public:
                     farthest = std::max(farthest, view.of_point[at(x)]);
                 }
             }
+            // The farthest first: most places that are no better show it there.
+            std::sort(points.begin(), points.end(), [&](int x, int y) {
+                const double of_x = view.of_point[at(x)];
+                const double of_y = view.of_point[at(y)];
+                return of_x != of_y ? of_x > of_y : x < y;
+            });
             order.emplace_back(-farthest / view.unit, f);
             around.misfit += eighth_power(square(farthest / view.unit));
         }
         std::sort(order.begin(), order.end());
         for (const auto& [negative, f] : order) around.frames.push_back(f);
+        const View& worst = views_[around.frames.front()];
+        std::sort(around.quads.begin(), around.quads.end(), [&](int q, int r) {
+            const double of_q = worst.of_quad[at(q)];
+            const double of_r = worst.of_quad[at(r)];
+            return of_q != of_r ? of_q > of_r : q < r;
+        });
         return around;
     }
 

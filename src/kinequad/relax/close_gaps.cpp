@@ -56,7 +56,7 @@ public:
             const Frame& frame = sliding_.frames_[f];
             views_[f].surface.emplace(frame.input, sliding_.F_);
             views_[f].unit = limit * frame.mean_edge;
-            look_at_all(f);
+            look_at_all(f, context);
         });
     }
 
@@ -220,17 +220,19 @@ private:
         }
     }
 
-    void look_at_all(std::size_t f) {
+    void look_at_all(std::size_t f, const Context& context) {
         const Frame& frame = sliding_.frames_[f];
         View& view = views_[f];
         const Quads& Q = sliding_.quads_.Q;
         view.points_of.resize(at(static_cast<int>(Q.rows())));
         for (int q = 0; q < static_cast<int>(Q.rows()); ++q) {
+            if (q % 4096 == 0) context.check_cancelled();
             view.of_quad.push_back(std::sqrt(squared_distance_of(q, f)));
         }
         const ClosestPoints quads(frame.vertices, cut_quads(Q, frame.vertices));
         int hint = -1;
         for (std::size_t x = 0; x < points_.size(); ++x) {
+            if (x % 4096 == 0) context.check_cancelled();
             const ClosestPoint closest = quads.find(points_[x].position(frame.input), hint);
             hint = closest.point.triangle;
             view.nearest.push_back(hint / 2);

@@ -137,9 +137,8 @@ Fit fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
 
 /// Takes back what `fit_surface` had to give up for `best`, as far as it can: vertices go on
 /// towards right angles, for `rounds` passes, but for those of quads that are about to leave the
-/// surface. A pass that lets a quad leave it is undone, and that quad held. Returns the number of
-/// folded quads.
-int settle(SlidingQuads& sliding, Fit best, double limit, int rounds, const Context& context) {
+/// surface. A pass that lets a quad leave it is undone, and that quad held.
+void settle(SlidingQuads& sliding, Fit best, double limit, int rounds, const Context& context) {
     constexpr double held_share = 0.7;
     const auto hold_beyond = [&](const std::vector<double>& distances, double distance) {
         for (std::size_t q = 0; q < distances.size(); ++q) {
@@ -162,7 +161,6 @@ int settle(SlidingQuads& sliding, Fit best, double limit, int rounds, const Cont
         best = std::move(now);
         ++passes;
     }
-    return best.folded;
 }
 
 }  // namespace
@@ -190,9 +188,12 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
         sliding.hug_surface(limit, 0, context);
         sliding.cover_extremities(limit, context);
     }
-    const int folded =
-        settle(sliding, fit_surface(sliding, limit, context), limit, options.rounds, context);
+    settle(sliding, fit_surface(sliding, limit, context), limit, options.rounds, context);
     sliding.close_gaps(options.gap_limit, context);
+    int folded = 0;
+    for (int q = 0; q < static_cast<int>(quads.Q.rows()); ++q) {
+        if (sliding.is_folded(q)) ++folded;
+    }
     if (folded > 0) {
         context.write_log(
             LogLevel::warning,

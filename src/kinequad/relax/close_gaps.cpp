@@ -16,17 +16,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A point of the input that is looked at, on the edge from vertex `a` to vertex `b`.
-struct EdgePoint {
-    int a;
-    int b;
-    double share;  ///< 0 at `a`, 1 at `b`
-
-    Vector3 position(const Positions& X) const {
-        return ((1 - share) * X.row(a) + share * X.row(b)).transpose();
-    }
-};
-
 double square(double x) { return x * x; }
 double eighth_power(double squared) { return square(square(squared)); }
 
@@ -171,6 +160,17 @@ public:
     }
 
 private:
+    /// A point of the input that is looked at, on the edge from vertex `a` to vertex `b`.
+    struct EdgePoint {
+        int a;
+        int b;
+        double share;  ///< 0 at `a`, 1 at `b`
+
+        Vector3 position(const Positions& X) const {
+            return ((1 - share) * X.row(a) + share * X.row(b)).transpose();
+        }
+    };
+
     /// Distances in one frame, in units of the input.
     struct View {
         std::optional<ClosestPoints> surface;

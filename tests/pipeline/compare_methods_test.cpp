@@ -64,6 +64,28 @@ TEST(CompareMethods, AForeignMeshIsMeasuredAsOurs) {
     EXPECT_NEAR(own.symmetry_error_degrees, other.symmetry_error_degrees, 0.05);
 }
 
+TEST(CompareMethods, AllHaveAsManyVerticesAsTheOneThatNeedsMost) {
+    const MemorySequence source = test::stretched_torus(2, 0.2, "some/torus.obj");
+    ComparisonOptions options;
+    options.measure.measure_distance = false;
+    options.recipes = {{"coarse", "", test::options_with(300)},
+                       {"fine", "", test::options_with(600), true}};
+    std::vector<std::string> warnings;
+    Context context;
+    context.log = [&](LogLevel level, std::string_view line) {
+        if (level == LogLevel::warning) warnings.emplace_back(line);
+    };
+    const ComparisonResult result = compare_methods(source, options, context);
+    ASSERT_EQ(result.comparison.methods.size(), 2U);
+    EXPECT_EQ(result.comparison.baseline, 1);
+    const double fine = static_cast<double>(result.comparison.methods[1].metrics.quads.vertices);
+    EXPECT_NEAR(fine, 600, 30);
+    const double coarse = static_cast<double>(result.comparison.methods[0].metrics.quads.vertices);
+    EXPECT_NEAR(coarse, fine, 0.05 * fine);
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(warnings[0].rfind("coarse is made again with", 0), 0U) << warnings[0];
+}
+
 TEST(CompareMethods, WarnsOfAForeignMeshInAnotherPose) {
     const MemorySequence source = test::stretched_torus(3, 0.2, "some/torus.obj");
     ComparisonOptions options;

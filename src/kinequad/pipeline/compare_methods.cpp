@@ -56,7 +56,16 @@ std::optional<SymmetryMap> find_measuring_map(const FrameSource& source,
     return std::nullopt;
 }
 
-/// Adds the methods one by one, then measures all of them.
+/// What takes part in a comparison, and how it was made.
+struct Contestant {
+    ComparedMethod method;
+    QuadSequence mesh;
+    std::vector<StageTime> times;
+    std::optional<Options> options;
+    int vertices = 0;
+};
+
+/// Makes the methods one by one, at one number of vertices, then measures all of them.
 class MethodComparer {
 public:
     MethodComparer(const FrameSource& source, const ComparisonOptions& options,
@@ -69,46 +78,98 @@ public:
                          : source.read_frame(options.reference)) {}
 
     ComparisonResult run() {
-        for (const ComparedRecipe& recipe : options_.recipes) make(recipe);
-        if (result_.meshes.empty() && failure_) std::rethrow_exception(failure_);
+        for (const ComparedRecipe& recipe : options_.recipes) {
+            made_.push_back(make(recipe, recipe.options));
+        }
+        const auto is_made = [](const auto& contestant) { return contestant.has_value(); };
+        if (failure_ && std::none_of(made_.begin(), made_.end(), is_made)) {
+            std::rethrow_exception(failure_);
+        }
+        even_out_counts();
+        for (std::size_t i = 0; i < made_.size(); ++i) {
+            if (!made_[i]) continue;
+            if (options_.recipes[i].is_baseline) {
+                result_.comparison.baseline = static_cast<int>(result_.meshes.size());
+            }
+            add(*std::move(made_[i]));
+        }
         for (const ForeignMesh& mesh : options_.foreign) carry(mesh);
         measure();
         return std::move(result_);
     }
 
 private:
-    void make(const ComparedRecipe& recipe) {
+    /// Empty where there is no valid mesh.
+    std::optional<Contestant> make(const ComparedRecipe& recipe, const Options& options) {
         try {
             const Context context = named_context(context_, recipe.name);
-            Result made = quadrangulate(source_, options_.landmarks, recipe.options, context);
-            if (recipe.is_baseline) {
-                result_.comparison.baseline = static_cast<int>(result_.meshes.size());
-            }
+            Result made = quadrangulate(source_, options_.landmarks, options, context);
             double seconds = 0;
             for (const StageTime& time : made.times) seconds += time.cpu_seconds;
-            add({recipe.name, recipe.description, {}, ComparedMethod::unknown, seconds},
-                follow_surface(made.quads, source_.triangles()));
-            result_.times.back() = std::move(made.times);
-            result_.options.back() = made.options;
+            return Contestant{
+                {recipe.name, recipe.description, {}, ComparedMethod::unknown, seconds},
+                follow_surface(made.quads, source_.triangles()),
+                std::move(made.times),
+                made.options,
+                static_cast<int>(made.quads.vertex.size())};
         } catch (const GridMapError& error) {
-            leave_out(recipe, error.what());
+            warn_of_failure(recipe, options, error.what());
         } catch (const VerificationError& error) {
-            leave_out(recipe, error.what());
+            warn_of_failure(recipe, options, error.what());
         }
+        return std::nullopt;
     }
 
-    void leave_out(const ComparedRecipe& recipe, const char* reason) {
+    void warn_of_failure(const ComparedRecipe& recipe, const Options& options, const char* reason) {
         failure_ = std::current_exception();
-        context_.write_log(
-            LogLevel::warning,
-            fmt::format("{} found no valid mesh and is left out: {}", recipe.name, reason));
+        const bool is_first = options.vertices == recipe.options.vertices;
+        context_.write_log(LogLevel::warning,
+                           fmt::format("{} found no valid mesh and {}: {}", recipe.name,
+                                       is_first ? "is left out" : "stays as it was", reason));
+    }
+
+    /// Where a method needs more vertices than were wanted, as for want of room for its
+    /// singularities, the others are made again with as many: finer quads are closer to any
+    /// surface.
+    void even_out_counts() {
+        constexpr int most_rounds = 3;
+        constexpr double allowed = 0.05;
+        for (int round = 0; round < most_rounds; ++round) {
+            int most = 0;
+            std::string_view largest;
+            for (const std::optional<Contestant>& contestant : made_) {
+                if (!contestant || contestant->vertices <= most) continue;
+                most = contestant->vertices;
+                largest = contestant->method.name;
+            }
+            bool is_even = true;
+            for (std::size_t i = 0; i < made_.size(); ++i) {
+                if (!made_[i] || made_[i]->vertices >= (1 - allowed) * most) continue;
+                const ComparedRecipe& recipe = options_.recipes[i];
+                context_.write_log(
+                    LogLevel::warning,
+                    fmt::format("{} is made again with {} vertices instead of {}: {} needs as many",
+                                recipe.name, most, made_[i]->vertices, largest));
+                Options options = recipe.options;
+                options.vertices = most;
+                options.edge_length = 0;
+                if (std::optional<Contestant> again = make(recipe, options)) {
+                    is_even = false;
+                    made_[i] = std::move(again);
+                }
+            }
+            if (is_even) return;
+        }
     }
 
     void carry(const ForeignMesh& mesh) {
         const auto points = bind_to_surface(mesh.X, reference_, source_.triangles(), context_);
         warn_if_elsewhere(mesh, carried_positions(points, reference_, source_.triangles()));
-        add({mesh.name, "A mesh that was given, carried by the nearest points of the input.", {}},
-            follow_surface(mesh.faces, points, source_.triangles()));
+        add({{mesh.name, "A mesh that was given, carried by the nearest points of the input.", {}},
+             follow_surface(mesh.faces, points, source_.triangles()),
+             {},
+             {},
+             static_cast<int>(points.size())});
     }
 
     /// A mesh in another pose is carried all the same, but what is measured then means nothing.
@@ -123,11 +184,11 @@ private:
                         mesh.name, percent));
     }
 
-    void add(ComparedMethod method, QuadSequence mesh) {
-        result_.comparison.methods.push_back(std::move(method));
-        result_.meshes.push_back(std::move(mesh));
-        result_.times.emplace_back();
-        result_.options.emplace_back();
+    void add(Contestant contestant) {
+        result_.comparison.methods.push_back(std::move(contestant.method));
+        result_.meshes.push_back(std::move(contestant.mesh));
+        result_.times.push_back(std::move(contestant.times));
+        result_.options.push_back(std::move(contestant.options));
     }
 
     StretchReference quads_over_reference(std::size_t i, const IntrinsicMetric& metric) const {
@@ -163,6 +224,7 @@ private:
     const Context& context_;
     Positions reference_;
     Topology topology_;
+    std::vector<std::optional<Contestant>> made_;  ///< by recipe
     ComparisonResult result_;
     std::exception_ptr failure_;
 };

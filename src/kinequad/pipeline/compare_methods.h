@@ -52,10 +52,12 @@ struct ComparisonResult {
 };
 
 /// Makes quads by every recipe, carries foreign meshes through the frames from the reference, and
-/// measures all of them together. The symmetry error is measured with the map from the landmarks,
-/// or of a pose that a plane mirrors; without either it stays unknown. A recipe that finds no valid
-/// mesh is left out with a warning; where none does, its error is thrown. Throws as `quadrangulate`
-/// and `measure_sequences`, and `InputError` (usage) where a name occurs twice. docs/report.md
+/// measures all of them together. Where one recipe needs more vertices than were wanted, as for
+/// want of room for its singularities, the others are made again with as many, within 5 %. The
+/// symmetry error is measured with the map from the landmarks, or of a pose that a plane mirrors;
+/// without either it stays unknown. A recipe that finds no valid mesh is left out with a warning;
+/// where none does, its error is thrown. Throws as `quadrangulate` and `measure_sequences`, and
+/// `InputError` (usage) where a name occurs twice. docs/report.md
 ComparisonResult compare_methods(const FrameSource& source, const ComparisonOptions& options,
                                  const Context& context);
 

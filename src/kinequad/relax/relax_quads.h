@@ -13,7 +13,7 @@ namespace kinequad {
 struct RelaxOptions {
     /// Frames of each view whose quads are looked at, evenly chosen, the reference among them. At
     /// least 1.
-    int sampled_frames = 12;
+    int sampled_frames = 8;
     /// The reference is this frame, which is not looked at twice; empty where it is no frame.
     std::optional<int> reference_frame = 0;
     /// Passes over all vertices.

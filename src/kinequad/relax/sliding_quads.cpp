@@ -13,7 +13,7 @@ namespace kinequad {
 namespace {
 
 /// Moves shorter than this share of the quad's size are not worth a try.
-constexpr double least_move = 0.01;
+constexpr double least_move = 0.002;
 /// Share of the size of its quads below which a vertex of a line does not come near another.
 constexpr double least_edge = 0.1;
 /// Scaled Jacobian below which no move takes a quad in a reference for the sake of other frames.
@@ -111,6 +111,28 @@ double SlidingQuads::cost_around(int v, const FoldBarrier& barrier) const {
     return sum;
 }
 
+/// Sum over the frames of the squared lengths of the edges at a vertex, in mean lengths.
+double SlidingQuads::spacing_cost(int v) const {
+    double sum = 0;
+    for (const Frame& frame : frames_) {
+        double squares = 0;
+        for (const int c : corners_of(v)) {
+            for (const int k : {1, 3}) {
+                squares +=
+                    (frame.vertices.row(neighbour(c, k)) - frame.vertices.row(v)).squaredNorm();
+            }
+        }
+        // An edge has a quad on either side.
+        sum += frame.weight * squares / (2 * frame.mean_edge * frame.mean_edge);
+    }
+    return sum;
+}
+
+/// What passes lower: the cost of the quads around a vertex, and the lengths of its edges.
+double SlidingQuads::relaxing_cost(int v) const {
+    return cost_around(v, relaxing_barrier) + spacing_weight * spacing_cost(v);
+}
+
 /// Smallest scaled Jacobian of a quad over the references.
 double SlidingQuads::least_jacobian_of(int quad) const {
     double least = 1;
@@ -170,14 +192,16 @@ Vector2 SlidingQuads::move_to_squares(int v) const {
 }
 
 /// Where vertex `v` should go for right angles in the quads around it: one damped step of Gauss and
-/// Newton on the squared cosines of the corners that it is part of.
+/// Newton on the squared cosines of the corners that it is part of and the lengths of its edges.
 Vector2 SlidingQuads::move_to_right_angles(int v) const {
     constexpr double damping = 0.1;
     Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
     Vector2 right = Vector2::Zero();
     for (const Frame& frame : frames_) {
         const auto tangents = embedding(quads_.vertex[at(v)].triangle, frame.input);
-        double inverse_squares = 0;
+        const double spacing = spacing_weight / (2 * frame.mean_edge * frame.mean_edge);
+        double stiffness = 0;
+        Vector3 pull = Vector3::Zero();
         for (const int c : corners_of(v)) {
             const QuadCorners p = corners_in(frame, c / 4);
             const auto k = at(c & 3);
@@ -186,9 +210,11 @@ Vector2 SlidingQuads::move_to_right_angles(int v) const {
                 matrix += frame.weight * slope * slope.transpose();
                 right -= frame.weight * corner.cosine * slope;
             }
-            inverse_squares += 1 / (p[(k + 1) % 4] - p[k]).squaredNorm();
+            stiffness += damping / (p[(k + 1) % 4] - p[k]).squaredNorm() + 2 * spacing;
+            pull += spacing * (p[(k + 1) % 4] + p[(k + 3) % 4] - 2 * p[k]);
         }
-        matrix += damping * frame.weight * inverse_squares * tangents.transpose() * tangents;
+        matrix += frame.weight * stiffness * tangents.transpose() * tangents;
+        right += frame.weight * tangents.transpose() * pull;
     }
     return matrix.inverse() * right;
 }
@@ -253,17 +279,19 @@ bool SlidingQuads::improve(int v, Aim aim, double distance_limit) {
     const Positions& X = frames_[0].vertices;
     const double size = (X.row(neighbour(*corners_of(v).begin(), 1)) - X.row(v)).norm();
     if (!move.allFinite() || move.norm() < least_move * size) return false;
-    const double cost_before = cost_around(v, relaxing_barrier);
+    const double cost_before = relaxing_cost(v);
     const double allowed = std::max(distance_limit, watched_distance(v));
     const double least = std::min(least_jacobian_around(v), least_kept_jacobian);
     const double longest = std::max(longest_edge(v), most_stretch);
-    for (const double length : {1.0, 0.4}) {
+    // Right angles are a matter of whole rows, which come along faster if every vertex goes too
+    // far.
+    constexpr double over_relaxation = 1.8;
+    for (const double length : {aim == Aim::squares ? 1.0 : over_relaxation, 0.4}) {
         place(v, walked(v, before, length * move));
         // Two vertices of a line must not come together at its end.
         const bool is_apart = slides_[at(v)] == 0 || shortest_edge(v) > least_edge * size;
-        if (is_apart && cost_around(v, relaxing_barrier) < cost_before &&
-            longest_edge(v) <= longest && least_jacobian_around(v) >= least &&
-            watched_distance(v) <= allowed) {
+        if (is_apart && relaxing_cost(v) < cost_before && longest_edge(v) <= longest &&
+            least_jacobian_around(v) >= least && watched_distance(v) <= allowed) {
             return true;
         }
     }

@@ -16,6 +16,10 @@ namespace kinequad {
 /// When a quad counts as badly shaped while its vertices slide.
 inline constexpr FoldBarrier relaxing_barrier;
 
+/// Weight of the squared lengths of edges, in mean lengths, beside the cost of the quads: keeps
+/// rows evenly apart.
+inline constexpr double spacing_weight = 0.1;
+
 /// Length that no move gives an edge in any frame, in mean lengths.
 inline constexpr double most_stretch = 3;
 
@@ -49,7 +53,8 @@ public:
     };
 
     /// Moves every vertex once towards the `aim` of the quads around it, where that lowers their
-    /// cost over all frames. Returns the number of moves.
+    /// cost and `spacing_weight` times the squares of their sides, over all frames. Returns the
+    /// number of moves.
     /// No move takes a quad farther than `distance_limit` (units of the input) from the input in a
     /// reference.
     int relax_pass(Aim aim, double distance_limit, const Context& context);
@@ -152,6 +157,8 @@ private:
     int neighbour(int corner, int k) const;
     QuadCorners corners_in(const Frame& frame, int quad) const;
     double cost_around(int v, const FoldBarrier& barrier) const;
+    double spacing_cost(int v) const;
+    double relaxing_cost(int v) const;
     double least_jacobian_around(int v) const;
     Eigen::Matrix<double, 3, 2> embedding(int t, const Positions& X) const;
     Vector2 move_to_squares(int v) const;

@@ -214,15 +214,16 @@ void add_method_options(CLI::App& app, RunCommand& command) {
            "and greedy solver of Du and Tu)")
         ->check(CLI::IsMember({"convex", "paper"}))
         ->capture_default_str();
-    app.add_option("--symmetrise", command.symmetrisation,
-                   "How --symmetry field makes the cross field symmetric: term (in the energy, one "
-                   "solve) or orbits (averaged over orbits and solved again, as in the paper) "
-                   "[the better of both; orbits with --field paper]")
+    app.add_option(
+           "--symmetrise", command.symmetrisation,
+           "How the cross field is made symmetric: term (in one solve) or orbits (solved on "
+           "the whole surface, averaged over orbits and solved again, as in the paper) "
+           "[the better of both; orbits with --field paper]")
         ->check(CLI::IsMember({"orbits", "term"}));
     app.add_option(
         "--alpha", options.alpha,
         fmt::format("Influence of the animation, from 0 (see the reference frame only) to below "
-                    "1 [{}; the best of three or four with --symmetry exact or field]",
+                    "1 [{}; the best of three to five with --symmetry exact or field]",
                     default_alpha(CrossFieldMethod::convex)));
     app.add_option("--curvature", options.curvature, "Influence of the curvature (convex only)")
         ->capture_default_str();

@@ -8,6 +8,7 @@
 #include "kinequad/field/verify_cross_field.h"
 #include "kinequad/mesh/split_along_level.h"
 #include "kinequad/symmetry/compute_mirror_map.h"
+#include "kinequad/symmetry/symmetric_half.h"
 #include "symmetry/symmetric_shapes.h"
 
 namespace kinequad {
@@ -29,6 +30,17 @@ protected:
     CrossFieldTargets skew_targets() const {
         return {Eigen::VectorXcd::Constant(topology_.triangle_count, std::polar(1.0, 0.7)),
                 Eigen::VectorXd::Constant(topology_.triangle_count, 0.3)};
+    }
+
+    /// Where the vertices of a refinement lie.
+    Positions positions_of(const RefinedMesh& fine) const {
+        Positions X(fine.vertex_count, 3);
+        const std::vector<SurfacePoint> points = vertex_points(fine);
+        for (std::size_t v = 0; v < points.size(); ++v) {
+            X.row(static_cast<Eigen::Index>(v)) =
+                position_of(points[v], shape_.mesh.V, shape_.mesh.F).transpose();
+        }
+        return X;
     }
 
     test::SymmetricShape shape_;
@@ -99,17 +111,45 @@ TEST_F(SymmetricField, RefinementKeepsIndicesAndResiduals) {
     const CrossField field = compute_cross_field(topology_, metric_, skew_targets(), {}, {});
     const LevelSplit split = split_along_level(topology_, metric_, map_.height, 0.2);
     const Topology fine = build_topology(split.mesh.F, split.mesh.vertex_count);
-    Positions X(split.mesh.vertex_count, 3);
-    const std::vector<SurfacePoint> points = vertex_points(split.mesh);
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        X.row(static_cast<Eigen::Index>(v)) =
-            position_of(points[v], shape_.mesh.V, shape_.mesh.F).transpose();
-    }
-    const IntrinsicMetric lengths = metric_of(fine, X);
+    const IntrinsicMetric lengths = metric_of(fine, positions_of(split.mesh));
     const CrossField refined =
         refine_cross_field(field, topology_, metric_, split.mesh, fine, lengths);
     EXPECT_TRUE(verify_cross_field(fine, lengths, refined, {}).valid());
     EXPECT_EQ(refined.index.head(field.index.size()), field.index);
+}
+
+TEST_F(SymmetricField, TargetsOfAHalfPointWhereThoseOfTheWholeDo) {
+    CrossFieldTargets whole = skew_targets();
+    for (int t = 0; t < topology_.triangle_count; ++t) {
+        whole.value[t] = std::polar(1.0, 0.37 * t);
+        whole.weight[t] = 0.01 * t;
+    }
+    const SymmetricHalf half =
+        take_symmetric_half(topology_, metric_, map_, shape_.mesh.V, shape_.mesh.F);
+    const CrossFieldTargets targets = refine_targets(whole, topology_, metric_, half.mesh);
+    const Positions V = positions_of(half.mesh);
+    // The tangents that angles of a triangle are measured by.
+    const auto tangents = [](const Positions& X, const Triangles& F, int t) {
+        const Vector3 side = (X.row(F(t, 1)) - X.row(F(t, 0))).transpose();
+        const Vector3 other = (X.row(F(t, 2)) - X.row(F(t, 0))).transpose();
+        Eigen::Matrix<double, 3, 2> axes;
+        axes.col(0) = side.normalized();
+        axes.col(1) = side.cross(other).cross(side).normalized();
+        return axes;
+    };
+    int cut = 0;
+    for (int t = 0; t < static_cast<int>(half.mesh.F.rows()); ++t) {
+        const int parent = half.mesh.parent[static_cast<std::size_t>(t)];
+        const double angle = std::arg(whole.value[parent]) / 4;
+        const Vector3 direction = tangents(shape_.mesh.V, shape_.mesh.F, parent) *
+                                  Vector2(std::cos(angle), std::sin(angle));
+        const Vector2 here = tangents(V, half.mesh.F, t).transpose() * direction;
+        const auto expected = std::polar(1.0, 4 * std::atan2(here[1], here[0]));
+        EXPECT_NEAR(std::abs(targets.value[t] - expected), 0, 1e-6) << t;
+        EXPECT_EQ(targets.weight[t], whole.weight[parent]);
+        if (half.mesh.F.row(t) != shape_.mesh.F.row(parent)) ++cut;
+    }
+    EXPECT_GT(cut, 0);
 }
 
 }  // namespace

@@ -49,13 +49,15 @@ TEST(Recipes, AreSeveralWhereBothSidesShareTheQuadsAndNothingIsGiven) {
         EXPECT_EQ(given[0].symmetrisation, Symmetrisation::term);
     }
     // Either way to a symmetric field is tried with the influence that was given.
-    Options options;
-    options.symmetry = SymmetryMode::field;
-    options.alpha = 0.3;
-    const std::vector<Options> both = recipes(options);
-    ASSERT_EQ(both.size(), 2U);
-    EXPECT_NE(both[0].symmetrisation, both[1].symmetrisation);
-    EXPECT_EQ(both[1].alpha, 0.3);
+    for (const SymmetryMode mode : {SymmetryMode::field, SymmetryMode::exact}) {
+        Options options;
+        options.symmetry = mode;
+        options.alpha = 0.3;
+        const std::vector<Options> both = recipes(options);
+        ASSERT_EQ(both.size(), 2U);
+        EXPECT_NE(both[0].symmetrisation, both[1].symmetrisation);
+        EXPECT_EQ(both[1].alpha, 0.3);
+    }
 }
 
 TEST(Recipes, LeaveNothingEmptyAndKeepWhatIsGiven) {

@@ -1,6 +1,7 @@
 #include "kinequad/field/refine_cross_field.h"
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "kinequad/core/index.h"
@@ -19,6 +20,16 @@ int half_edge_of_parent(const RefinedMesh& fine, int h) {
     return -1;
 }
 
+/// Angle of the first side of triangle `t` of the refined mesh in the frame of its parent.
+double turn_from_parent(const RefinedMesh& fine, int t, const Topology& topology,
+                        const IntrinsicMetric& metric) {
+    const auto layout = lay_out_triangle(side_lengths(topology, metric, fine.parent[at(t)]));
+    const Eigen::Index corner = Eigen::Index{3} * t;
+    const Vector2 axis =
+        layout * (fine.barycentric.row(corner + 1) - fine.barycentric.row(corner)).transpose();
+    return std::atan2(axis[1], axis[0]);
+}
+
 }  // namespace
 
 CrossField refine_cross_field(const CrossField& field, const Topology& topology,
@@ -28,12 +39,8 @@ CrossField refine_cross_field(const CrossField& field, const Topology& topology,
     result.energy = field.energy;
     result.angle.resize(fine_topology.triangle_count);
     for (int t = 0; t < fine_topology.triangle_count; ++t) {
-        const int parent = fine.parent[at(t)];
-        const auto layout = lay_out_triangle(side_lengths(topology, metric, parent));
-        const Eigen::Index corner = Eigen::Index{3} * t;
-        const Vector2 axis =
-            layout * (fine.barycentric.row(corner + 1) - fine.barycentric.row(corner)).transpose();
-        result.angle[t] = field.angle[parent] - std::atan2(axis[1], axis[0]);
+        result.angle[t] =
+            field.angle[fine.parent[at(t)]] - turn_from_parent(fine, t, topology, metric);
     }
     result.period_jump = Eigen::VectorXi::Zero(fine_topology.edge_count);
     for (int e = 0; e < fine_topology.edge_count; ++e) {
@@ -56,6 +63,19 @@ CrossField refine_cross_field(const CrossField& field, const Topology& topology,
     }
     result.index = Eigen::VectorXi::Zero(fine_topology.vertex_count);
     result.index.head(field.index.size()) = field.index;
+    return result;
+}
+
+CrossFieldTargets refine_targets(const CrossFieldTargets& targets, const Topology& topology,
+                                 const IntrinsicMetric& metric, const RefinedMesh& fine) {
+    const int triangles = static_cast<int>(fine.parent.size());
+    CrossFieldTargets result{Eigen::VectorXcd(triangles), Eigen::VectorXd(triangles)};
+    for (int t = 0; t < triangles; ++t) {
+        const int parent = fine.parent[at(t)];
+        const double turn = turn_from_parent(fine, t, topology, metric);
+        result.value[t] = targets.value[parent] * std::polar(1.0, -4 * turn);
+        result.weight[t] = targets.weight[parent];
+    }
     return result;
 }
 

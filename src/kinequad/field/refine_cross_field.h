@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kinequad/field/cross_field.h"
+#include "kinequad/field/cross_field_targets.h"
 #include "kinequad/mesh/intrinsic_metric.h"
 #include "kinequad/mesh/refined_mesh.h"
 
@@ -13,5 +14,10 @@ namespace kinequad {
 CrossField refine_cross_field(const CrossField& field, const Topology& topology,
                               const IntrinsicMetric& metric, const RefinedMesh& fine,
                               const Topology& fine_topology, const IntrinsicMetric& fine_metric);
+
+/// The same targets on a refinement of their mesh, or on a part of one, `fine`: parts of a triangle
+/// have its target. `topology` and `metric` are the targets'.
+CrossFieldTargets refine_targets(const CrossFieldTargets& targets, const Topology& topology,
+                                 const IntrinsicMetric& metric, const RefinedMesh& fine);
 
 }  // namespace kinequad

@@ -53,25 +53,25 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape, b
 std::vector<Options> list_recipes(const Options& options) {
     const bool is_paper = options.field == CrossFieldMethod::paper;
     const bool is_whole = options.symmetry == SymmetryMode::field;
-    std::vector<Symmetrisation> symmetrisations = {
-        options.symmetrisation.value_or(is_paper ? Symmetrisation::orbits : Symmetrisation::term)};
-    if (is_whole && !is_paper && !options.symmetrisation) {
+    const bool is_half = options.symmetry == SymmetryMode::exact;
+    std::vector<Symmetrisation> symmetrisations = {options.symmetrisation.value_or(
+        is_paper && !is_half ? Symmetrisation::orbits : Symmetrisation::term)};
+    if ((is_whole || is_half) && !is_paper && !options.symmetrisation) {
         symmetrisations.push_back(Symmetrisation::orbits);
     }
     std::vector<Options> recipes;
     for (const Symmetrisation symmetrisation : symmetrisations) {
-        const bool is_twice_solved = is_whole && symmetrisation == Symmetrisation::orbits;
+        const bool is_averaged = symmetrisation == Symmetrisation::orbits;
         std::vector<double> alphas = {default_alpha(options.field)};
         // What serves both sides at once is a matter of how differently they move.
         if (!is_paper && options.symmetry != SymmetryMode::none) {
-            alphas = is_twice_solved ? std::vector{0.4, 0.5}
-                     : is_whole      ? std::vector{0.05}
-                                     : std::vector{0.02, 0.1, 0.35, 0.5};
+            if (is_whole) alphas = is_averaged ? std::vector{0.4, 0.5} : std::vector{0.05};
+            if (is_half) {
+                alphas = is_averaged ? std::vector{0.35} : std::vector{0.02, 0.1, 0.35, 0.5};
+            }
         }
         if (options.alpha) alphas = {*options.alpha};
-        const double cost = options.symmetry == SymmetryMode::exact ? 0.1
-                            : is_twice_solved                       ? 0.2
-                                                                    : 0.08;
+        const double cost = is_half ? 0.1 : is_whole && is_averaged ? 0.2 : 0.08;
         for (const double alpha : alphas) {
             Options recipe = options;
             recipe.symmetrisation = symmetrisation;

@@ -15,10 +15,13 @@ enum class SymmetryMode {
     exact,  ///< one half is solved and mirrored: the connectivity is its own mirror image
 };
 
-/// How `SymmetryMode::field` makes the cross field symmetric. docs/symmetry.md
+/// How a cross field is made symmetric. docs/symmetry.md
 enum class Symmetrisation {
-    orbits,  ///< solved, averaged over orbits, and solved again towards the average [Du and Tu]
-    term,    ///< solved once, with a symmetry term in the energy
+    /// Solved on the whole surface, averaged over orbits, and solved again towards the average [Du
+    /// and Tu]: on all of it, or on one half.
+    orbits,
+    /// Solved once: with a symmetry term in the energy, or on one half with what both sides do.
+    term,
 };
 
 /// Edge lengths that the surface is known by up to the grid map. docs/pipeline.md

@@ -98,14 +98,19 @@ bool price_crowds(const Topology& topology, const IntrinsicMetric& metric, doubl
     return found;
 }
 
-CrossField make_cross_field(const Result& result, const Context& context) {
-    CrossFieldTargetOptions target_options;
-    target_options.method = result.options.field;
-    target_options.alpha = *result.options.alpha;
-    target_options.curvature_weight = result.options.curvature;
-    target_options.edge_length = result.edge_length;
-    const CrossFieldTargets targets = compute_cross_field_targets(
-        result.domain.topology, result.domain.metric, result.tensors, target_options);
+/// What the deformation of the domain asks of crosses.
+CrossFieldTargets make_targets(const Result& result) {
+    CrossFieldTargetOptions options;
+    options.method = result.options.field;
+    options.alpha = *result.options.alpha;
+    options.curvature_weight = result.options.curvature;
+    options.edge_length = result.edge_length;
+    return compute_cross_field_targets(result.domain.topology, result.domain.metric, result.tensors,
+                                       options);
+}
+
+CrossField make_cross_field(const Result& result, const CrossFieldTargets& targets,
+                            const Context& context) {
     CrossFieldOptions options;
     options.method = result.options.field;
     options.singularity_cost = *result.options.singularity_cost;
@@ -194,8 +199,9 @@ void measure_deformation(const std::vector<DomainView>& views, Result& result,
     finish_stage("deformation");
 }
 
-void solve_field(Result& result, const Context& context, const StageEnd& finish_stage) {
-    result.field = make_cross_field(result, context);
+void solve_field(Result& result, const Context& context, const StageEnd& finish_stage,
+                 const std::optional<CrossFieldTargets>& targets) {
+    result.field = make_cross_field(result, targets ? *targets : make_targets(result), context);
     finish_stage("field");
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "kinequad/core/context.h"
 #include "kinequad/core/error.h"
+#include "kinequad/field/cross_field_targets.h"
 #include "kinequad/io/frame_source.h"
 #include "kinequad/pipeline/result.h"
 
@@ -35,9 +37,11 @@ void measure_deformation(const std::vector<DomainView>& views, Result& result,
 
 /// Solves the cross field of `result.domain` by `result.options`, a recipe, and verifies it; with
 /// the symmetry `field` and `orbits` twice, the second time drawn to the first one's average over
-/// the orbits of `result.symmetry`, whose triangles are the domain's then. Fills in `field`. Throws
-/// as `quadrangulate`.
-void solve_field(Result& result, const Context& context, const StageEnd& finish_stage);
+/// the orbits of `result.symmetry`, whose triangles are the domain's then. What crosses are drawn
+/// to is `targets`, where given, in place of the deformation. Fills in `field`. Throws as
+/// `quadrangulate`.
+void solve_field(Result& result, const Context& context, const StageEnd& finish_stage,
+                 const std::optional<CrossFieldTargets>& targets = std::nullopt);
 
 /// Makes quads of `result.field` over `result.domain`: map and extraction, each verified. Fills in
 /// `map`. Returns the quads, whose vertices are points of the domain's triangles. Throws as

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -85,6 +86,47 @@ bool are_alike(const DomainView& one, const DomainView& other, const Topology& t
         if ((lengths - there).norm() > tolerance * lengths.norm()) return false;
     }
     return true;
+}
+
+/// Makes crosses of the whole surface keep to the stationary curve of `map`, which `split` has
+/// inserted, and singularities keep away from it.
+void keep_to_curve(Domain& domain, const LevelSplit& split, const SymmetryMap& map,
+                   const Triangles& F) {
+    domain.fixed_directions = curve_directions(split, domain.topology, domain.metric, map);
+    for (const FixedDirection& fixed : domain.fixed_directions) {
+        for (int k = 0; k < 3; ++k) domain.avoided_vertices.push_back(F(fixed.triangle, k));
+    }
+}
+
+/// The deformation of the whole surface of a run that solves one half, for its field.
+Result measure_whole(const SolvedSurface& surface, const Result& run, const Context& context) {
+    Result whole;
+    whole.edge_length = run.edge_length;
+    whole.topology = run.topology;
+    whole.features = run.features;
+    whole.domain.surface.mesh =
+        as_refined_mesh(surface.frames.triangles(), surface.frames.vertex_count());
+    whole.domain.topology = surface.topology;
+    whole.domain.metric = surface.metric;
+    const SymmetryMap& map = run.symmetry->map;
+    keep_to_curve(whole.domain, insert_stationary_curve(surface.topology, surface.metric, map), map,
+                  surface.frames.triangles());
+    measure_deformation({{surface.frames, surface.reference, surface.metric}}, whole, context,
+                        [](const char*) {});
+    return whole;
+}
+
+/// What the crosses of a half are drawn to by the field of the whole surface, solved first and
+/// averaged over the orbits of `map`.
+CrossFieldTargets targets_from_whole(Result& whole, const Options& recipe, const SymmetryMap& map,
+                                     const SymmetricHalf& half, const Context& context) {
+    constexpr double weight = 0.1;
+    whole.options = recipe;
+    whole.options.symmetry = SymmetryMode::none;
+    solve_field(whole, context, [](const char*) {});
+    return refine_targets(average_over_orbits(whole.domain.topology, whole.domain.metric,
+                                              whole.field, map, weight, context),
+                          whole.domain.topology, whole.domain.metric, half.mesh);
 }
 
 /// The surface with the stationary curve inserted.
@@ -194,12 +236,7 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     const Positions& reference = surface.reference;
     const SymmetryMap& map = result.symmetry->map;
     const LevelSplit split = insert_stationary_curve(topology, metric, map);
-    result.domain.fixed_directions = curve_directions(split, topology, metric, map);
-    for (const FixedDirection& fixed : result.domain.fixed_directions) {
-        for (int k = 0; k < 3; ++k) {
-            result.domain.avoided_vertices.push_back(frames.triangles()(fixed.triangle, k));
-        }
-    }
+    keep_to_curve(result.domain, split, map, frames.triangles());
     finish_stage("symmetry");
     measure_deformation({{frames, reference, metric}}, result, context, finish_stage);
 
@@ -248,9 +285,16 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
         (views[0].metric.edge_length + views[1].metric.edge_length) / 2;
     finish_stage("symmetry");
 
+    std::optional<Result> whole;
     measure_deformation(views, result, context, finish_stage);
     const auto solve = [&] {
-        solve_field(result, context, finish_stage);
+        std::optional<CrossFieldTargets> targets;
+        if (result.options.symmetrisation == Symmetrisation::orbits) {
+            if (!whole) whole = measure_whole(surface, result, context);
+            targets = targets_from_whole(*whole, result.options, result.symmetry->map,
+                                         result.domain.surface, context);
+        }
+        solve_field(result, context, finish_stage, targets);
         return map_and_extract(views, result, context, finish_stage);
     };
     const QuadMesh solved = solve_best_recipe(views, result, solve, context, finish_stage);

@@ -349,13 +349,14 @@ bool SlidingQuads::close_gaps_at(int v, Gaps& gaps) {
     return true;
 }
 
-void SlidingQuads::close_gaps(double limit, const Context& context) {
+std::vector<int> SlidingQuads::close_gaps(double limit, const Context& context) {
     constexpr int rounds = 8;
     constexpr double looked_at_share = 0.8;
+    constexpr double far_share = 0.7;
     release();
     Gaps gaps(*this, limit, context);
-    // A search costs time: there is one for every vertex, on average.
-    std::size_t searches_left = quads_.vertex.size();
+    // A search costs time: there is one for every other vertex, on average.
+    std::size_t searches_left = quads_.vertex.size() / 2;
     std::vector<char> is_settled(quads_.vertex.size(), 0);
     for (int round = 0; round < rounds; ++round) {
         bool is_moved = false;
@@ -375,6 +376,7 @@ void SlidingQuads::close_gaps(double limit, const Context& context) {
         }
         if (!is_moved) break;
     }
+    return gaps.quads_beyond(far_share);
 }
 
 }  // namespace kinequad

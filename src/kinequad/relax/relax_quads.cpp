@@ -102,7 +102,7 @@ Fit keep_better_regions(SlidingQuads& sliding, const Fit& before, double limit,
 
 /// Alternates what keeps quads unfolded and what keeps the two surfaces together, which are at odds
 /// in creases and on tips, and keeps in every region what is best there.
-Fit fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
+void fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
     unfold(sliding, releasing_pass, context);
     Fit best = look_at(sliding, limit, context);
     // One round brings most; more are for quads that stay folded.
@@ -132,34 +132,23 @@ Fit fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
         sliding.restore(last);
     }
     sliding.restore(best.quads);
-    return best;
 }
 
-/// Takes back what `fit_surface` had to give up for `best`, as far as it can: vertices go on
-/// towards right angles, for `rounds` passes, but for those of quads that are about to leave the
-/// surface. A pass that lets a quad leave it is undone, and that quad held.
-void settle(SlidingQuads& sliding, Fit best, double limit, int rounds, const Context& context) {
-    constexpr double held_share = 0.7;
-    const auto hold_beyond = [&](const std::vector<double>& distances, double distance) {
-        for (std::size_t q = 0; q < distances.size(); ++q) {
-            if (distances[q] > distance) sliding.hold(static_cast<int>(q));
+/// Brings quads and input together in all frames, and takes back what that and `fit_surface` have
+/// cost: vertices go on towards right angles, for `rounds` passes, but for those of quads that are
+/// about to leave the surface, and gaps are closed again after every few.
+void settle(SlidingQuads& sliding, double limit, const RelaxOptions& options,
+            const Context& context) {
+    constexpr int passes_between = 8;
+    std::vector<int> far_quads = sliding.close_gaps(options.gap_limit, context);
+    for (int passes = 0; passes < options.rounds; ++passes) {
+        if (passes % passes_between == 0) {
+            for (const int q : far_quads) sliding.hold(q);
         }
-    };
-    const double allowed = std::max(limit, best.distance);
-    sliding.release();
-    best.quads = sliding.state();
-    for (int round = 0, passes = 0; passes < rounds && round < 3 * rounds; ++round) {
-        hold_beyond(best.distances, held_share * limit);
         sliding.relax_pass(SlidingQuads::Aim::right_angles, limit, context);
-        Fit now = look_at(sliding, limit, context);
-        if (now.folded > best.folded || now.distance > allowed) {
-            hold_beyond(now.distances, allowed);
-            best.quads.is_pinned = sliding.state().is_pinned;
-            sliding.restore(best.quads);
-            continue;
+        if ((passes + 1) % passes_between == 0 || passes + 1 == options.rounds) {
+            far_quads = sliding.close_gaps(options.gap_limit, context);
         }
-        best = std::move(now);
-        ++passes;
     }
 }
 
@@ -188,8 +177,8 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
         sliding.hug_surface(limit, 0, context);
         sliding.cover_extremities(limit, context);
     }
-    settle(sliding, fit_surface(sliding, limit, context), limit, options.rounds, context);
-    sliding.close_gaps(options.gap_limit, context);
+    fit_surface(sliding, limit, context);
+    settle(sliding, limit, options, context);
     int folded = 0;
     for (int q = 0; q < static_cast<int>(quads.Q.rows()); ++q) {
         if (sliding.is_folded(q)) ++folded;

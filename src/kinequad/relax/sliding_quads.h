@@ -108,8 +108,9 @@ public:
 
     /// Brings quads and input together where they are farther apart than most of `limit`, in mean
     /// lengths of the quads' edges, in any frame: vertices there search for places that are closer
-    /// in all frames and hardly cost angles. Sets free what is held.
-    void close_gaps(double limit, const Context& context);
+    /// in all frames and hardly cost angles. Sets free what is held. Returns the quads that stay
+    /// farther apart than 0.7 of `limit`, the farthest first.
+    std::vector<int> close_gaps(double limit, const Context& context);
 
     /// Mean length of the quads' edges in the first reference, in units of the input.
     double mean_edge_length() const { return mean_edge_length(frames_[0]); }

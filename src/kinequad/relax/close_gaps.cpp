@@ -49,8 +49,8 @@ public:
         });
     }
 
-    /// The quads farther away than `distance` units in some frame, the farthest first.
-    std::vector<int> quads_beyond(double distance) const {
+    /// The distance at every quad (q), at most over the frames, in units.
+    std::vector<double> at_quads() const {
         std::vector<double> farthest(views_[0].of_quad.size(), 0);
         for (const View& view : views_) {
             for (std::size_t q = 0; q < farthest.size(); ++q) {
@@ -61,6 +61,12 @@ public:
                 of_nearest = std::max(of_nearest, view.of_point[x] / view.unit);
             }
         }
+        return farthest;
+    }
+
+    /// The quads farther away than `distance` units in some frame, the farthest first.
+    std::vector<int> quads_beyond(double distance) const {
+        const std::vector<double> farthest = at_quads();
         std::vector<std::pair<double, int>> far;
         for (std::size_t q = 0; q < farthest.size(); ++q) {
             if (farthest[q] > distance) far.emplace_back(-farthest[q], static_cast<int>(q));
@@ -349,10 +355,9 @@ bool SlidingQuads::close_gaps_at(int v, Gaps& gaps) {
     return true;
 }
 
-std::vector<int> SlidingQuads::close_gaps(double limit, const Context& context) {
+std::vector<double> SlidingQuads::close_gaps(double limit, const Context& context) {
     constexpr int rounds = 8;
     constexpr double looked_at_share = 0.8;
-    constexpr double far_share = 0.7;
     release();
     Gaps gaps(*this, limit, context);
     // A search costs time: there is one for every other vertex, on average.
@@ -376,7 +381,7 @@ std::vector<int> SlidingQuads::close_gaps(double limit, const Context& context) 
         }
         if (!is_moved) break;
     }
-    return gaps.quads_beyond(far_share);
+    return gaps.at_quads();
 }
 
 }  // namespace kinequad

@@ -27,6 +27,7 @@ bool SlidingQuads::search_around(int v, const Steps& steps,
     const SurfacePoint before = quads_.vertex[at(v)];
     SurfacePoint best = before;
     bool is_moved = false;
+    const double least_edge = least_edge_at(v);
     double least = cost(std::numeric_limits<double>::infinity());
     for (const double length : steps.lengths) {
         const SurfacePoint start = steps.go_on ? best : before;
@@ -34,8 +35,7 @@ bool SlidingQuads::search_around(int v, const Steps& steps,
             const double angle = 2 * std::numbers::pi * (i + 5 * length) / steps.directions;
             const Vector2 step = length * size * Vector2(std::cos(angle), std::sin(angle));
             place(v, walked(v, start, step));
-            const bool is_apart = slides_[at(v)] == 0 || shortest_edge(v) > 0.1 * size;
-            const double value = is_apart ? cost(least) : least;
+            const double value = shortest_edge(v) >= least_edge ? cost(least) : least;
             if (value < least) {
                 least = value;
                 best = quads_.vertex[at(v)];
@@ -63,6 +63,18 @@ std::vector<int> SlidingQuads::vertices_around(int quad, int reach) const {
         around = std::move(wider);
     }
     std::sort(around.begin(), around.end());
+    return around;
+}
+
+std::vector<int> SlidingQuads::quads_around(int quad, int reach) const {
+    std::vector<int> around = {quad};
+    if (reach > 0) {
+        for (const int v : vertices_around(quad, reach - 1)) {
+            for (const int c : corners_of(v)) around.push_back(c / 4);
+        }
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
     return around;
 }
 

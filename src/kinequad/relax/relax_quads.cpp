@@ -60,15 +60,16 @@ double misfit_of(double distance, double limit) { return std::pow(distance / lim
 struct Fit {
     int folded = 0;
     std::vector<char> is_folded;    ///< q: in a reference
-    std::vector<double> distances;  ///< q: see `SlidingQuads::distances`
+    std::vector<double> distances;  ///< q: between the two surfaces
     double distance = 0;            ///< the largest of them
     double misfit = 0;              ///< their sum, see `misfit_of`
     SlidingQuads::State quads;
 };
 
-Fit look_at(const SlidingQuads& sliding, double limit, const Context& context) {
+/// The quads as they are, where `distances` (q) are what `limit` limits.
+Fit judge(const SlidingQuads& sliding, std::vector<double> distances, double limit) {
     Fit fit;
-    fit.distances = sliding.distances(context);
+    fit.distances = std::move(distances);
     for (std::size_t q = 0; q < fit.distances.size(); ++q) {
         fit.is_folded.push_back(sliding.is_folded(static_cast<int>(q)) ? 1 : 0);
         fit.folded += fit.is_folded.back();
@@ -79,12 +80,11 @@ Fit look_at(const SlidingQuads& sliding, double limit, const Context& context) {
     return fit;
 }
 
-/// Puts those regions of the quads back to what they were in `before` where that was better: less
-/// folded, then closer. Returns what comes of it.
-Fit keep_better_regions(SlidingQuads& sliding, const Fit& before, double limit,
-                        const Context& context) {
-    const Fit now = look_at(sliding, limit, context);
-    bool is_mixed = false;
+/// Puts those regions of the quads, which are `now`, back to what they were in `before` where that
+/// was better: less folded, then closer. Returns what comes of it, with distances as they were in
+/// the regions.
+Fit keep_better_regions(SlidingQuads& sliding, const Fit& before, const Fit& now, double limit) {
+    std::vector<double> distances = now.distances;
     for (const std::vector<int>& region : sliding.regions_moved_since(before.quads)) {
         int folded = 0;
         double misfit = 0;
@@ -95,16 +95,17 @@ Fit keep_better_regions(SlidingQuads& sliding, const Fit& before, double limit,
         }
         if (folded < 0 || (folded == 0 && misfit < 0)) continue;
         sliding.restore(before.quads, region);
-        is_mixed = true;
+        for (const int q : region) distances[at(q)] = before.distances[at(q)];
     }
-    return is_mixed ? look_at(sliding, limit, context) : now;
+    return judge(sliding, std::move(distances), limit);
 }
 
 /// Alternates what keeps quads unfolded and what keeps the two surfaces together, which are at odds
 /// in creases and on tips, and keeps in every region what is best there.
 void fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
+    const auto look = [&] { return judge(sliding, sliding.distances(context), limit); };
     unfold(sliding, releasing_pass, context);
-    Fit best = look_at(sliding, limit, context);
+    Fit best = look();
     // One round brings most; more are for quads that stay folded.
     const auto is_done = [&](int round) {
         return best.folded == 0 && (round > 0 || best.distance <= limit);
@@ -125,7 +126,7 @@ void fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
         if (is_last_resort) sliding.release();
         unfold(sliding, is_last_resort ? most_unfolding_passes : releasing_pass, context);
         const SlidingQuads::State last = sliding.state();
-        Fit better = keep_better_regions(sliding, best, limit, context);
+        Fit better = keep_better_regions(sliding, best, look(), limit);
         ++rounds_in_vain;
         if (better.folded < best.folded || better.misfit < 0.9 * best.misfit) rounds_in_vain = 0;
         best = std::move(better);
@@ -135,20 +136,49 @@ void fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
 }
 
 /// Brings quads and input together in all frames, and takes back what that and `fit_surface` have
-/// cost: vertices go on towards right angles, for `rounds` passes, but for those of quads that are
-/// about to leave the surface, and gaps are closed again after every few.
-void settle(SlidingQuads& sliding, double limit, const RelaxOptions& options,
-            const Context& context) {
+/// cost: vertices go on towards right angles, for as many passes as there are rounds, but for those
+/// of quads that are about to leave the surface, and gaps are closed again after every few.
+/// Returns the distances that `close_gaps` leaves.
+std::vector<double> settle(SlidingQuads& sliding, double limit, const RelaxOptions& options,
+                           const Context& context) {
     constexpr int passes_between = 8;
-    std::vector<int> far_quads = sliding.close_gaps(options.gap_limit, context);
+    constexpr double held_share = 0.7;
+    std::vector<double> distances = sliding.close_gaps(options.gap_limit, context);
     for (int passes = 0; passes < options.rounds; ++passes) {
         if (passes % passes_between == 0) {
-            for (const int q : far_quads) sliding.hold(q);
+            for (std::size_t q = 0; q < distances.size(); ++q) {
+                if (distances[q] > held_share) sliding.hold(static_cast<int>(q));
+            }
         }
         sliding.relax_pass(SlidingQuads::Aim::right_angles, limit, context);
         if ((passes + 1) % passes_between == 0 || passes + 1 == options.rounds) {
-            far_quads = sliding.close_gaps(options.gap_limit, context);
+            distances = sliding.close_gaps(options.gap_limit, context);
         }
+    }
+    return distances;
+}
+
+/// Goes back to what quads were `early` around those that stay folded or far from the input in
+/// some frame, `distances` (q) in units of the limit, and tries from there: vertices that have
+/// slid into a crease together do not come out one by one.
+void start_again(SlidingQuads& sliding, const SlidingQuads::State& early,
+                 std::vector<double> distances, const RelaxOptions& options,
+                 const Context& context) {
+    constexpr double far = 1.1;
+    Fit best = judge(sliding, std::move(distances), 1);
+    for (const int reach : {2, 4}) {
+        std::vector<int> region;
+        for (std::size_t q = 0; q < best.distances.size(); ++q) {
+            if (best.distances[q] <= far && best.is_folded[q] == 0) continue;
+            const std::vector<int> around = sliding.quads_around(static_cast<int>(q), reach);
+            region.insert(region.end(), around.begin(), around.end());
+        }
+        if (region.empty()) return;
+        sliding.restore(early, region);
+        sliding.release();
+        unfold(sliding, releasing_pass, context);
+        const Fit now = judge(sliding, sliding.close_gaps(options.gap_limit, context), 1);
+        best = keep_better_regions(sliding, best, now, 1);
     }
 }
 
@@ -163,6 +193,7 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
     const double limit = options.distance_limit * sliding.mean_edge_length();
     const int square_rounds = options.rounds;
     const int angle_rounds = options.rounds + options.rounds / 2;
+    SlidingQuads::State early = sliding.state();
     for (int round = 0; round < square_rounds + angle_rounds; ++round) {
         context.report_progress("relaxation",
                                 static_cast<double>(round) / (square_rounds + angle_rounds));
@@ -176,9 +207,10 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
         sliding.release();
         sliding.hug_surface(limit, 0, context);
         sliding.cover_extremities(limit, context);
+        if (round < mending_interval) early = sliding.state();
     }
     fit_surface(sliding, limit, context);
-    settle(sliding, limit, options, context);
+    start_again(sliding, early, settle(sliding, limit, options, context), options, context);
     int folded = 0;
     for (int q = 0; q < static_cast<int>(quads.Q.rows()); ++q) {
         if (sliding.is_folded(q)) ++folded;

@@ -14,8 +14,6 @@ namespace {
 
 /// Moves shorter than this share of the quad's size are not worth a try.
 constexpr double least_move = 0.002;
-/// Share of the size of its quads below which a vertex of a line does not come near another.
-constexpr double least_edge = 0.1;
 /// Scaled Jacobian below which no move takes a quad in a reference for the sake of other frames.
 constexpr double least_kept_jacobian = 0.05;
 
@@ -254,6 +252,13 @@ double SlidingQuads::shortest_edge(int v) const {
     return shortest;
 }
 
+/// What no move takes the shortest edge at `v` below: vertices must not come together, as they
+/// could at the end of a line.
+double SlidingQuads::least_edge_at(int v) const {
+    constexpr double share = 0.1;
+    return std::min(shortest_edge(v), share * frames_[0].mean_edge);
+}
+
 /// The longest edge at `v` in a frame, by the mean length of the edges there.
 double SlidingQuads::longest_edge(int v, const Frame& frame) const {
     double square = 0;
@@ -283,15 +288,15 @@ bool SlidingQuads::improve(int v, Aim aim, double distance_limit) {
     const double allowed = std::max(distance_limit, watched_distance(v));
     const double least = std::min(least_jacobian_around(v), least_kept_jacobian);
     const double longest = std::max(longest_edge(v), most_stretch);
+    const double shortest = least_edge_at(v);
     // Right angles are a matter of whole rows, which come along faster if every vertex goes too
     // far.
     constexpr double over_relaxation = 1.8;
     for (const double length : {aim == Aim::squares ? 1.0 : over_relaxation, 0.4}) {
         place(v, walked(v, before, length * move));
-        // Two vertices of a line must not come together at its end.
-        const bool is_apart = slides_[at(v)] == 0 || shortest_edge(v) > least_edge * size;
-        if (is_apart && relaxing_cost(v) < cost_before && longest_edge(v) <= longest &&
-            least_jacobian_around(v) >= least && watched_distance(v) <= allowed) {
+        if (shortest_edge(v) >= shortest && relaxing_cost(v) < cost_before &&
+            longest_edge(v) <= longest && least_jacobian_around(v) >= least &&
+            watched_distance(v) <= allowed) {
             return true;
         }
     }

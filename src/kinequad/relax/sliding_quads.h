@@ -89,6 +89,9 @@ public:
     /// The quads with a corner that is not where it was, in regions that share no such corner.
     std::vector<std::vector<int>> regions_moved_since(const State& state) const;
 
+    /// The quads up to `reach` quads around quad `quad`, which comes with them.
+    std::vector<int> quads_around(int quad, int reach) const;
+
     /// Whether a quad is folded in a reference.
     bool is_folded(int quad) const { return least_jacobian_of(quad) <= 0; }
 
@@ -108,9 +111,9 @@ public:
 
     /// Brings quads and input together where they are farther apart than most of `limit`, in mean
     /// lengths of the quads' edges, in any frame: vertices there search for places that are closer
-    /// in all frames and hardly cost angles. Sets free what is held. Returns the quads that stay
-    /// farther apart than 0.7 of `limit`, the farthest first.
-    std::vector<int> close_gaps(double limit, const Context& context);
+    /// in all frames and hardly cost angles. Sets free what is held. Returns how far apart
+    /// the two are at every quad (q) then, at most over all frames, in units of `limit`.
+    std::vector<double> close_gaps(double limit, const Context& context);
 
     /// Mean length of the quads' edges in the first reference, in units of the input.
     double mean_edge_length() const { return mean_edge_length(frames_[0]); }
@@ -167,6 +170,7 @@ private:
     double least_jacobian_of(int quad) const;
     SurfacePoint walked(int v, const SurfacePoint& start, const Vector2& move) const;
     double shortest_edge(int v) const;
+    double least_edge_at(int v) const;
     double longest_edge(int v, const Frame& frame) const;
     double longest_edge(int v) const;
     double mean_edge_length(const Frame& frame) const;

@@ -340,13 +340,17 @@ TEST(CloseGaps, CoversASpikeThatOnlyAnotherFrameShows) {
     Positions bent = grid.mesh.V;
     bent(tip, 2) = 0;
     SlidingQuads sliding = grid.sliding({{bent, 1}, {grid.mesh.V, 1}});
-    sliding.close_gaps(0.45, {});
+    const std::vector<double> left = sliding.close_gaps(0.45, {});
     grid.expect_kept(sliding.quads());
     EXPECT_GT(grid.least_jacobian(sliding.quads(), bent), 0.1);
     Grid after = grid;
     after.quads = sliding.quads();
     const std::vector<double> distances = after.sliding({{grid.mesh.V, 1}}).distances({});
-    EXPECT_LT(*std::max_element(distances.begin(), distances.end()), 0.45 / 6);
+    const double farthest = *std::max_element(distances.begin(), distances.end());
+    EXPECT_LT(farthest, 0.45 / 6);
+    // What it says is left, in units of the limit, is the distance in that frame.
+    const double unit = 0.45 * grid.sliding({{grid.mesh.V, 1}}).mean_edge_length();
+    EXPECT_NEAR(unit * *std::max_element(left.begin(), left.end()), farthest, 0.05 * farthest);
 }
 
 TEST(CloseGaps, LeavesQuadsAloneThatAreNear) {
@@ -354,6 +358,21 @@ TEST(CloseGaps, LeavesQuadsAloneThatAreNear) {
     SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}, {sheared(grid.mesh.V, 0.5), 1}});
     sliding.close_gaps(0.45, {});
     EXPECT_TRUE(sliding.regions_moved_since({grid.quads.vertex, {}}).empty());
+}
+
+TEST(SlidingQuads, TheQuadsAroundAQuadAreThoseThatItReaches) {
+    const Grid grid(landscape(12, flat), 9, 0);
+    const SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+    const int middle = 4 * 9 + 4;
+    EXPECT_EQ(sliding.quads_around(middle, 0), std::vector<int>{middle});
+    for (const int reach : {1, 2, 3}) {
+        std::vector<int> expected;
+        for (int i = 4 - reach; i <= 4 + reach; ++i) {
+            for (int j = 4 - reach; j <= 4 + reach; ++j) expected.push_back(9 * i + j);
+        }
+        EXPECT_EQ(sliding.quads_around(middle, reach), expected);
+    }
+    EXPECT_EQ(sliding.quads_around(0, 1), (std::vector<int>{0, 1, 9, 10}));
 }
 
 TEST(CutQuads, CutsAlongTheShorterDiagonal) {

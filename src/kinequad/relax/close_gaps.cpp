@@ -43,7 +43,6 @@ public:
         views_.resize(sliding_.frames_.size());
         parallel_for(views_.size(), 1, context, [&](std::size_t f, std::size_t) {
             const Frame& frame = sliding_.frames_[f];
-            views_[f].surface.emplace(frame.input, sliding_.F_);
             views_[f].unit = limit * frame.mean_edge;
             look_at_all(f, context);
         });
@@ -179,7 +178,6 @@ private:
 
     /// Distances in one frame, in units of the input.
     struct View {
-        std::optional<ClosestPoints> surface;
         double unit = 1;
         std::vector<double> of_quad;              ///< q: from the quad to the input
         std::vector<double> of_point;             ///< x: from the point to the quads
@@ -288,7 +286,7 @@ private:
         const auto ask = [&](const Vector3& point, std::size_t nearest_corner) {
             const int v = sliding_.quads_.Q(quad, static_cast<int>(nearest_corner));
             const int hint = sliding_.quads_.vertex[at(v)].triangle;
-            const auto beyond = views_[f].surface->find_beyond(farthest, point, hint);
+            const auto beyond = sliding_.frames_[f].surface->find_beyond(farthest, point, hint);
             if (beyond) farthest = beyond->squared_distance;
             return beyond.has_value();
         };
@@ -359,6 +357,9 @@ std::vector<double> SlidingQuads::close_gaps(double limit, const Context& contex
     constexpr int rounds = 8;
     constexpr double looked_at_share = 0.8;
     release();
+    parallel_for(frames_.size(), 1, context, [&](std::size_t f, std::size_t) {
+        if (!frames_[f].surface) frames_[f].surface.emplace(frames_[f].input, F_);
+    });
     Gaps gaps(*this, limit, context);
     // A search costs time: there is one for every other vertex, on average.
     std::size_t searches_left = quads_.vertex.size() / 2;

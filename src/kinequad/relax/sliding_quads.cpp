@@ -30,15 +30,15 @@ SlidingQuads::SlidingQuads(const QuadMesh& quads, const Topology& topology,
     link_corners();
     pin_boundary();
     for (SampledFrame& frame : frames) {
-        Frame own{std::move(frame.input), {}, frame.weight, 0};
+        Frame own{std::move(frame.input), {}, frame.weight, 0, std::nullopt};
         own.vertices.resize(static_cast<Eigen::Index>(quads.vertex.size()), 3);
         frames_.push_back(std::move(own));
     }
     for (int v = 0; v < static_cast<int>(quads_.vertex.size()); ++v) place(v, quads_.vertex[at(v)]);
     for (Frame& frame : frames_) frame.mean_edge = mean_edge_length(frame);
     for (int r = 0; r < reference_count; ++r) {
-        const Frame& frame = frames_[at(r)];
-        references_.push_back({frame, ClosestPoints(frame.input, F)});
+        Frame& frame = frames_[at(r)];
+        references_.push_back({frame, frame.surface.emplace(frame.input, F)});
     }
 }
 

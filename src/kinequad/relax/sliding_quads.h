@@ -132,12 +132,13 @@ private:
         Positions input;
         Positions vertices;
         double weight;
-        double mean_edge;  ///< of the quads, when they began to slide
+        double mean_edge;                      ///< of the quads, when they began to slide
+        std::optional<ClosestPoints> surface;  ///< of a reference, or once gaps are looked for
     };
     /// A pose in which folds and distances are looked at: the first frames, with the input there.
     struct Reference {
         const Frame& frame;
-        ClosestPoints surface;
+        const ClosestPoints& surface;
     };
 
     class Gaps;

@@ -158,28 +158,27 @@ std::vector<double> settle(SlidingQuads& sliding, double limit, const RelaxOptio
     return distances;
 }
 
-/// Goes back to what quads were `early` around those that stay folded or far from the input in
-/// some frame, `distances` (q) in units of the limit, and tries from there: vertices that have
+/// Goes back to what quads were `early` at and around those that stay folded or far from the input
+/// in some frame, `distances` (q) in units of the limit, and tries from there: vertices that have
 /// slid into a crease together do not come out one by one.
 void start_again(SlidingQuads& sliding, const SlidingQuads::State& early,
                  std::vector<double> distances, const RelaxOptions& options,
                  const Context& context) {
     constexpr double far = 1.1;
-    Fit best = judge(sliding, std::move(distances), 1);
-    for (const int reach : {2, 4}) {
-        std::vector<int> region;
-        for (std::size_t q = 0; q < best.distances.size(); ++q) {
-            if (best.distances[q] <= far && best.is_folded[q] == 0) continue;
-            const std::vector<int> around = sliding.quads_around(static_cast<int>(q), reach);
-            region.insert(region.end(), around.begin(), around.end());
-        }
-        if (region.empty()) return;
-        sliding.restore(early, region);
-        sliding.release();
-        unfold(sliding, releasing_pass, context);
-        const Fit now = judge(sliding, sliding.close_gaps(options.gap_limit, context), 1);
-        best = keep_better_regions(sliding, best, now, 1);
+    constexpr int reach = 1;
+    const Fit before = judge(sliding, std::move(distances), 1);
+    std::vector<int> region;
+    for (std::size_t q = 0; q < before.distances.size(); ++q) {
+        if (before.distances[q] <= far && before.is_folded[q] == 0) continue;
+        const std::vector<int> around = sliding.quads_around(static_cast<int>(q), reach);
+        region.insert(region.end(), around.begin(), around.end());
     }
+    if (region.empty()) return;
+    sliding.restore(early, region);
+    sliding.release();
+    unfold(sliding, releasing_pass, context);
+    const Fit now = judge(sliding, sliding.close_gaps(options.gap_limit, context), 1);
+    keep_better_regions(sliding, before, now, 1);
 }
 
 }  // namespace

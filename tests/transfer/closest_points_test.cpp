@@ -68,13 +68,22 @@ void expect_same_as_brute_force(const TriangleMesh& mesh, const ClosestPoints& s
         ASSERT_EQ(found.point.barycentric, expected.point.barycentric) << "point " << i;
         const double exact = expected.squared_distance;
         const int hint = i % static_cast<int>(mesh.F.rows());
-        ASSERT_FALSE(surface.find_beyond(exact, p, hint)) << "point " << i;
-        ASSERT_FALSE(surface.find_beyond(2 * exact, p)) << "point " << i;
+        for (const double near : {exact, 2 * exact}) {
+            const ClosestPoint any = surface.find_unless_near(near, p, hint);
+            ASSERT_LE(any.squared_distance, near) << "point " << i;
+            const int t = any.point.triangle;
+            const auto corner = [&](int k) {
+                return Vector3(mesh.V.row(mesh.F(t, k)).transpose());
+            };
+            ASSERT_EQ(
+                closest_point_on_triangle(p, corner(0), corner(1), corner(2)).squared_distance,
+                any.squared_distance)
+                << "point " << i;
+        }
         if (exact == 0) continue;
-        const auto beyond = surface.find_beyond(std::nextafter(exact, 0.0), p, hint);
-        ASSERT_TRUE(beyond) << "point " << i;
-        ASSERT_EQ(beyond->squared_distance, exact) << "point " << i;
-        ASSERT_EQ(beyond->point.triangle, expected.point.triangle) << "point " << i;
+        const ClosestPoint beyond = surface.find_unless_near(std::nextafter(exact, 0.0), p, hint);
+        ASSERT_EQ(beyond.squared_distance, exact) << "point " << i;
+        ASSERT_EQ(beyond.point.triangle, expected.point.triangle) << "point " << i;
     }
 }
 

@@ -193,11 +193,8 @@ ClosestPoint ClosestPoints::find(const Vector3& point, int hint) const {
     return search_->nearest(point, hint, -1);
 }
 
-std::optional<ClosestPoint> ClosestPoints::find_beyond(double squared_distance,
-                                                       const Vector3& point, int hint) const {
-    const ClosestPoint found = search_->nearest(point, hint, squared_distance);
-    if (found.squared_distance <= squared_distance) return std::nullopt;
-    return found;
+ClosestPoint ClosestPoints::find_unless_near(double near, const Vector3& point, int hint) const {
+    return search_->nearest(point, hint, near);
 }
 
 const Positions& ClosestPoints::positions() const { return search_->V; }

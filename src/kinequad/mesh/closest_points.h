@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "kinequad/core/types.h"
 #include "kinequad/mesh/triangle_mesh.h"
@@ -37,11 +36,10 @@ public:
     /// search up, -1 for none; the result does not depend on it. Safe to call from several threads.
     ClosestPoint find(const Vector3& point, int hint = -1) const;
 
-    /// The nearest point of the surface where that is farther than the root of `squared_distance`,
-    /// else nothing: faster than `find` where most points are nearer. Safe to call from several
-    /// threads.
-    std::optional<ClosestPoint> find_beyond(double squared_distance, const Vector3& point,
-                                            int hint = -1) const;
+    /// The nearest point of the surface where that is farther than the root of `near`, else one
+    /// that is not farther, which depends on `hint`: faster than `find` where most points are near.
+    /// Safe to call from several threads.
+    ClosestPoint find_unless_near(double near, const Vector3& point, int hint = -1) const;
 
     const Positions& positions() const;
     const Triangles& triangles() const;

@@ -283,12 +283,18 @@ private:
         const std::size_t k = end_of_cut(p);
         const double near_distance = near_share * frame.mean_edge;
         double farthest = square(near_distance);
-        const auto ask = [&](const Vector3& point, std::size_t nearest_corner) {
-            const int v = sliding_.quads_.Q(quad, static_cast<int>(nearest_corner));
-            const int hint = sliding_.quads_.vertex[at(v)].triangle;
-            const auto beyond = sliding_.frames_[f].surface->find_beyond(farthest, point, hint);
-            if (beyond) farthest = beyond->squared_distance;
-            return beyond.has_value();
+        const auto ask = [&](const Vector3& point, int hint) {
+            const ClosestPoint found = frame.surface->find_unless_near(farthest, point, hint);
+            const bool is_beyond = found.squared_distance > farthest;
+            if (is_beyond) farthest = found.squared_distance;
+            return is_beyond;
+        };
+        const auto at_corner = [&](std::size_t corner) {
+            const int v = sliding_.quads_.Q(quad, static_cast<int>(corner));
+            return sliding_.quads_.vertex[at(v)].triangle;
+        };
+        const auto at_middle = [&](std::size_t side) {
+            return sliding_.hints_[at(5 * quad) + side];
         };
         const auto ask_on_lines = [&](std::initializer_list<double> shares) {
             bool is_any_far = false;
@@ -298,14 +304,15 @@ private:
                 const std::size_t b = i < 4 ? (i + 1) % 4 : k + 2;
                 for (const double share : shares) {
                     const Vector3 point = p[a] + share * (p[b] - p[a]);
-                    if (ask(point, share < 0.5 ? a : b)) is_any_far = true;
+                    const int hint = share == 0.5 ? at_middle(i) : at_corner(share < 0.5 ? a : b);
+                    if (ask(point, hint)) is_any_far = true;
                 }
             }
             return is_any_far;
         };
         const bool is_line_far = ask_on_lines({0.5, 0.25, 0.75});
-        const bool is_first_far = ask((p[k] + p[k + 1] + p[k + 2]) / 3, k + 1);
-        const bool is_second_far = ask((p[k] + p[k + 2] + p[(k + 3) % 4]) / 3, (k + 3) % 4);
+        const bool is_first_far = ask((p[k] + p[k + 1] + p[k + 2]) / 3, at_middle(4));
+        const bool is_second_far = ask((p[k] + p[k + 2] + p[(k + 3) % 4]) / 3, at_middle(4));
         if (is_line_far || is_first_far || is_second_far) {
             ask_on_lines({0.125, 0.375, 0.625, 0.875});
         }

@@ -113,18 +113,20 @@ double SlidingQuads::distance_of(int quad, double least_told) const {
     double farthest = 0;
     for (const Reference& reference : references_) {
         const QuadCorners p = corners_in(reference.frame, quad);
-        int hint = quads_.vertex[at(quads_.Q(quad, 0))].triangle;
+        int hint = hints_[at(5 * quad + 4)];
         const double least = least_told * reference.frame.mean_edge;
         double squared = least * least;
         const auto ask = [&](const Vector3& point) {
-            const auto beyond = reference.surface.find_beyond(squared, point, hint);
-            if (!beyond) return;
-            squared = beyond->squared_distance;
-            hint = beyond->point.triangle;
+            const ClosestPoint found = reference.surface.find_unless_near(squared, point, hint);
+            squared = std::max(squared, found.squared_distance);
+            hint = found.point.triangle;
         };
         const Vector3 middle = (p[0] + p[1] + p[2] + p[3]) / 4;
         ask(middle);
-        for (std::size_t k = 0; k < 4; ++k) ask((p[k] + p[(k + 1) % 4]) / 2);
+        for (int k = 0; k < 4; ++k) {
+            hint = hints_[at(5 * quad + k)];
+            ask((p[at(k)] + p[(at(k) + 1) % 4]) / 2);
+        }
         const double near_distance = near_share * reference.frame.mean_edge;
         if (squared > near_distance * near_distance) {
             for (std::size_t k = 0; k < 4; ++k) {

@@ -35,6 +35,11 @@ SlidingQuads::SlidingQuads(const QuadMesh& quads, const Topology& topology,
         frames_.push_back(std::move(own));
     }
     for (int v = 0; v < static_cast<int>(quads_.vertex.size()); ++v) place(v, quads_.vertex[at(v)]);
+    for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
+        for (const int k : {0, 1, 2, 3, 0}) {
+            hints_.push_back(quads_.vertex[at(quads_.Q(q, k))].triangle);
+        }
+    }
     for (Frame& frame : frames_) frame.mean_edge = mean_edge_length(frame);
     for (int r = 0; r < reference_count; ++r) {
         Frame& frame = frames_[at(r)];
@@ -304,11 +309,31 @@ bool SlidingQuads::improve(int v, Aim aim, double distance_limit) {
     return false;
 }
 
+/// Whether the middles of a quad and of its sides are near the input in the references.
+bool SlidingQuads::is_near(int quad) {
+    bool result = true;
+    for (const Reference& reference : references_) {
+        const QuadCorners p = corners_in(reference.frame, quad);
+        const double near_distance = near_share * reference.frame.mean_edge;
+        const double near = near_distance * near_distance;
+        for (std::size_t k = 0; k < 5; ++k) {
+            const Vector3 point = k < 4 ? Vector3((p[k] + p[(k + 1) % 4]) / 2)
+                                        : Vector3((p[0] + p[1] + p[2] + p[3]) / 4);
+            int& hint = hints_[at(5 * quad) + k];
+            const ClosestPoint found = reference.surface.find_unless_near(near, point, hint);
+            hint = found.point.triangle;
+            if (found.squared_distance > near) result = false;
+        }
+    }
+    return result;
+}
+
 int SlidingQuads::relax_pass(Aim aim, double distance_limit, const Context& context) {
     // Distances are slow: they are asked for only where quads are about to leave the surface.
     is_watched_.resize(at(static_cast<int>(quads_.Q.rows())));
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-        is_watched_[at(q)] = distance_of(q, near_share) > 0.5 * distance_limit ? 1 : 0;
+        is_watched_[at(q)] =
+            !is_near(q) && distance_of(q, near_share) > 0.5 * distance_limit ? 1 : 0;
     }
     int moves = 0;
     for (int v = 0; v < static_cast<int>(quads_.vertex.size()); ++v) {

@@ -184,6 +184,7 @@ private:
     int cover_extremities_in(const Reference& reference, double limit, const Context& context);
     std::vector<int> vertices_around(int quad, int reach) const;
     double distance_of(int quad, double least_told = 0) const;
+    bool is_near(int quad);
     void place(int v, const SurfacePoint& point);
     void link_corners();
     void pin_boundary();
@@ -202,6 +203,9 @@ private:
     std::vector<char> slides_;  ///< v: on a line, along which it may move
     std::optional<LineWalk> walk_;
     std::vector<char> is_watched_;  ///< q: see `relax_pass`
+    /// 5q + k: a triangle near the middle of side k of quad q when a pass last began, or for k = 4
+    /// near its own; speeds searches up and changes no result.
+    std::vector<int> hints_;
 };
 
 }  // namespace kinequad

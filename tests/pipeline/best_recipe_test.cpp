@@ -26,9 +26,7 @@ protected:
         Options options;
         options.symmetry = SymmetryMode::exact;
         options_ = resolve_options(options, 1, false, true);
-        for (const Options& recipe : list_recipes(options_)) {
-            alphas_.push_back(*recipe.alpha);
-        }
+        recipes_ = list_recipes(options_);
     }
 
     /// A quad of the square whose upper corners are moved to the right by `slant`.
@@ -56,7 +54,9 @@ protected:
         result_.options = options_;
         const auto solve = [&] {
             std::size_t i = 0;
-            while (alphas_[i] != *result_.options.alpha) ++i;
+            while (recipes_[i].alpha != result_.options.alpha ||
+                   recipes_[i].symmetrisation != result_.options.symmetrisation)
+                ++i;
             const Outcome& outcome = outcomes[i];
             if (outcome.fails) throw GridMapError("recipe " + std::to_string(i));
             result_.field.index = Eigen::VectorXi::Zero(100);
@@ -74,15 +74,15 @@ protected:
     std::vector<DomainView> views_;
     Options options_;
     Result result_;
-    std::vector<double> alphas_;
+    std::vector<Options> recipes_;
     std::vector<std::string> stages_;
 };
 
 TEST_F(BestRecipe, IsTheOneWithTheBestAngles) {
-    std::vector<Outcome> outcomes(alphas_.size(), Outcome{.slant = 0.2});
+    std::vector<Outcome> outcomes(recipes_.size(), Outcome{.slant = 0.2});
     outcomes[1].slant = 0.1;
     const QuadMesh quads = choose(outcomes);
-    EXPECT_EQ(result_.options.alpha, alphas_[1]);
+    EXPECT_EQ(result_.options.alpha, recipes_[1].alpha);
     EXPECT_EQ(quads.vertex, slanted(0.1).vertex);
     // Whoever watches is shown its stages again.
     EXPECT_EQ(stages_, (std::vector<std::string>{"field", "map", "extraction"}));
@@ -92,27 +92,27 @@ TEST_F(BestRecipe, IsTheOneWithTheBestAngles) {
 }
 
 TEST_F(BestRecipe, TakesFewerSingularitiesBeforeAnglesAboutAsGood) {
-    std::vector<Outcome> outcomes(alphas_.size(), Outcome{.slant = 0.3});
+    std::vector<Outcome> outcomes(recipes_.size(), Outcome{.slant = 0.3});
     outcomes[0] = {.slant = 0.1, .singular = 60};
     outcomes[1] = {.slant = 0.105, .singular = 10};
     choose(outcomes);
-    EXPECT_EQ(result_.options.alpha, alphas_[1]);
+    EXPECT_EQ(result_.options.alpha, recipes_[1].alpha);
     EXPECT_EQ((result_.field.index.array() != 0).count(), 10);
 }
 
 TEST_F(BestRecipe, KeepsToTheWantedNumber) {
-    std::vector<Outcome> outcomes(alphas_.size(), Outcome{.slant = 0.01, .quads = 1100});
+    std::vector<Outcome> outcomes(recipes_.size(), Outcome{.slant = 0.01, .quads = 1100});
     outcomes[1] = {.slant = 0.2};
     choose(outcomes);
-    EXPECT_EQ(result_.options.alpha, alphas_[1]);
+    EXPECT_EQ(result_.options.alpha, recipes_[1].alpha);
 }
 
 TEST_F(BestRecipe, IsFoundAmongThoseThatDoNotFail) {
-    std::vector<Outcome> outcomes(alphas_.size(), Outcome{.fails = true});
+    std::vector<Outcome> outcomes(recipes_.size(), Outcome{.fails = true});
     EXPECT_THROW(choose(outcomes), GridMapError);
     outcomes[1].fails = false;
     choose(outcomes);
-    EXPECT_EQ(result_.options.alpha, alphas_[1]);
+    EXPECT_EQ(result_.options.alpha, recipes_[1].alpha);
 }
 
 }  // namespace

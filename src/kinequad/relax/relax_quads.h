@@ -19,7 +19,7 @@ struct RelaxOptions {
     /// Passes over all vertices.
     int rounds = 8;
     /// Vertices of the input farther than this from the quads, in edge lengths of the quads, get a
-    /// quad vertex of their own: finger tips, ears.
+    /// quad vertex of their own while quads slide: finger tips, ears. At last `gap_limit` counts.
     double distance_limit = 0.4;
     /// At last quads and input are brought closer together where they are farther apart than most
     /// of this in any sampled frame, in edge lengths of the quads.

@@ -248,7 +248,8 @@ void add_method_options(CLI::App& app, RunCommand& command) {
     app.add_option(
            "--metric", command.metric,
            "Edge lengths that the surface is known by: mean (over the frames) or reference "
-           "[mean; reference with --alpha 0 and where the frames differ too much for a mean]")
+           "[mean; reference with --alpha 0, with --field paper, and where the frames differ too "
+           "much for a mean]")
         ->check(CLI::IsMember({"mean", "reference"}));
     app.add_option("--reference", command.reference,
                    "Reference frame, counted from 0, or rest: the OBJ beside a PC2 or MDD cache")

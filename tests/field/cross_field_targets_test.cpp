@@ -67,15 +67,23 @@ TEST(CrossFieldTargets, AtAlphaZeroKnowNothingOfTheAnimation) {
 }
 
 TEST(CrossFieldTargets, OfThePaperAreItsEquations) {
+    // The mean stretches are 1 and 0.1.
+    const auto weights = [](double smallest, double largest) {
+        return targets_of({.method = CrossFieldMethod::paper,
+                           .alpha = 0.75,
+                           .smallest_stretch = smallest,
+                           .largest_stretch = largest})
+            .weight;
+    };
     const CrossFieldTargets targets =
-        targets_of({.method = CrossFieldMethod::paper, .alpha = 0.75, .largest_stretch = 4});
+        targets_of({.method = CrossFieldMethod::paper, .alpha = 0.75});
     EXPECT_NEAR(std::abs(targets.value[0] - Complex(0, 1)), 0, 1e-12);
-    EXPECT_NEAR(targets.weight[0], 3 * 0.25, 1e-12);
-    EXPECT_EQ(targets.weight[1], 0);  // 0.1 / 4 is below the least weight that counts
-    const CrossFieldTargets clamped =
-        targets_of({.method = CrossFieldMethod::paper, .alpha = 0.75, .largest_stretch = 0.5});
-    EXPECT_NEAR(clamped.weight[0], 3, 1e-12);
-    EXPECT_NEAR(clamped.weight[1], 3 * 0.2, 1e-12);
+    EXPECT_NEAR(targets.weight[0], 3 * (1 - 0.5) / (2 - 0.5), 1e-12);
+    EXPECT_EQ(targets.weight[1], 0);
+    EXPECT_NEAR(weights(0, 4)[0], 3 * 0.25, 1e-12);
+    EXPECT_EQ(weights(0, 4)[1], 0);  // 0.1 / 4 is below the least weight that counts
+    EXPECT_NEAR(weights(0, 0.5)[0], 3, 1e-12);
+    EXPECT_NEAR(weights(0, 0.5)[1], 3 * 0.2, 1e-12);
 }
 
 TEST(CrossFieldTargets, WeighTheSameOverallOnAFinerMesh) {
@@ -98,7 +106,10 @@ TEST(CrossFieldTargets, RefuseOptionsOutOfRange) {
     EXPECT_THROW(targets_of({.edge_length = 0}), InputError);
     EXPECT_THROW(targets_of({.method = CrossFieldMethod::paper, .alpha = 1}), InputError);
     EXPECT_THROW(
-        targets_of({.method = CrossFieldMethod::paper, .alpha = 0.5, .largest_stretch = 0}),
+        targets_of({.method = CrossFieldMethod::paper, .alpha = 0.5, .largest_stretch = 0.5}),
+        InputError);
+    EXPECT_THROW(
+        targets_of({.method = CrossFieldMethod::paper, .alpha = 0.5, .smallest_stretch = -1}),
         InputError);
 }
 

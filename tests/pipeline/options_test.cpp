@@ -28,9 +28,10 @@ std::vector<Options> recipes(const Options& options, bool has_landmarks = false)
 
 TEST(Options, DefaultsDependOnTheMethod) {
     Options options;
-    EXPECT_EQ(resolve_options(options, 10, false, false).metric, MetricChoice::mean);
     for (const CrossFieldMethod method : {CrossFieldMethod::convex, CrossFieldMethod::paper}) {
         options.field = method;
+        EXPECT_EQ(resolve_options(options, 10, false, false).metric,
+                  method == CrossFieldMethod::paper ? MetricChoice::reference : MetricChoice::mean);
         ASSERT_EQ(recipes(options).size(), 1U);
         EXPECT_EQ(recipes(options)[0].alpha, default_alpha(method));
     }

@@ -8,9 +8,15 @@
 namespace kinequad {
 namespace {
 
-/// Triangles whose normalised stretch is below this ask for nothing, as the authors of the baseline
-/// do.
+/// Triangles of a smaller weight ask for nothing.
 constexpr double smallest_paper_weight = 0.1;
+
+/// Where in the range of `options` a mean stretch lies, 0 to 1.
+double paper_weight(double stretch, const CrossFieldTargetOptions& options) {
+    return std::clamp(
+        (stretch - options.smallest_stretch) / (options.largest_stretch - options.smallest_stretch),
+        0.0, 1.0);
+}
 
 void check(const CrossFieldTargetOptions& options, const DeformationTensors& tensors,
            const Topology& topology) {
@@ -19,8 +25,11 @@ void check(const CrossFieldTargetOptions& options, const DeformationTensors& ten
             "alpha must not be negative");
     require(!paper || options.alpha < 1, InputFault::usage,
             "alpha must be less than 1 with the paper's field");
-    require(!paper || options.largest_stretch > 0, InputFault::usage,
-            "the stretch of full weight must be positive");
+    require(!paper || (options.smallest_stretch >= 0 &&
+                       options.largest_stretch > options.smallest_stretch),
+            InputFault::usage,
+            "the stretch of full weight must be above the one of no weight, which must not be "
+            "negative");
     require(paper || options.edge_length > 0, InputFault::usage,
             "the wanted edge length must be positive");
     KQ_DEBUG_ASSERT(tensors.stretch_direction_sum.size() == topology.triangle_count);
@@ -57,10 +66,9 @@ CrossFieldTargets compute_cross_field_targets(const Topology& topology,
         for (Eigen::Index t = 0; t < count; ++t) {
             const double sum = tensors.stretch_sum[t];
             if (!(sum > 0)) continue;
-            const double stretch =
-                std::min(1.0, tensors.stretch_square_sum[t] / sum / options.largest_stretch);
-            if (stretch < smallest_paper_weight) continue;
-            set(t, tensors.stretch_direction_sum[t], ratio * stretch);
+            const double weight = paper_weight(tensors.stretch_square_sum[t] / sum, options);
+            if (weight < smallest_paper_weight) continue;
+            set(t, tensors.stretch_direction_sum[t], ratio * weight);
         }
         return targets;
     }

@@ -23,14 +23,16 @@ struct CrossFieldTargetOptions {
     /// Wanted edge length of the quads, in units of the input: areas are measured in its square, so
     /// that targets do not depend on how finely the triangles sample the surface (`convex` only).
     double edge_length = 0;
-    double largest_stretch = 2;  ///< mean stretch of full weight, and its bound (`paper` only)
+    double smallest_stretch = 0.5;  ///< mean stretch of no weight (`paper` only)
+    double largest_stretch = 2;     ///< mean stretch of full weight, and its bound (`paper` only)
 };
 
 /// Turns what the animation does to every triangle into targets of the cross field: for `convex`
 /// `G = alpha S / (1 + |S|) + curvature_weight curvature`, `S` the mean stretch, weighted by `4 A
 /// |G| / edge_length^2`; for `paper` equations (7) and (8) of Du and Tu with weight `alpha / (1 -
-/// alpha) min(1, s / largest_stretch)`. docs/field.md Throws `InputError` (usage) where an option
-/// is out of its range.
+/// alpha) w`, where `w` rises from 0 to 1 between `smallest_stretch` and `largest_stretch` and what
+/// is below 0.1 asks for nothing. docs/field.md Throws `InputError` (usage) where an option is out
+/// of its range.
 CrossFieldTargets compute_cross_field_targets(const Topology& topology,
                                               const IntrinsicMetric& metric,
                                               const DeformationTensors& tensors,

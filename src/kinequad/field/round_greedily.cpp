@@ -17,7 +17,7 @@ constexpr double local_tolerance = 1e-4;
 constexpr int local_budget = 400;
 /// Roundings whose local re-solve did not settle before everything is solved again: at first, and
 /// by how much more the next time. What is still free then weighs ever less.
-constexpr double first_patience = 40;
+constexpr double first_patience = 4;
 constexpr double patience_growth = 1.03;
 
 class GreedyRounding {

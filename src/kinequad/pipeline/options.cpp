@@ -20,7 +20,9 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape, b
           "--symmetrise term: needs --field convex; the paper averages over orbits");
     const double alpha = options.alpha.value_or(default_alpha(options.field));
     if (!options.metric) {
-        options.metric = alpha == 0 ? MetricChoice::reference : MetricChoice::mean;
+        options.metric = alpha == 0 || options.field == CrossFieldMethod::paper
+                             ? MetricChoice::reference
+                             : MetricChoice::mean;
     }
     // Written so that a NaN fails.
     check(alpha >= 0 && alpha < 1,

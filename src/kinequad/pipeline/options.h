@@ -56,8 +56,8 @@ struct Options {
     /// Energy that a singularity may cost, in rad^2 (`convex` only); empty: what was measured best
     /// with `symmetry` and `symmetrisation`.
     std::optional<double> singularity_cost;
-    /// Empty: `mean`, and `reference` where `alpha` is 0, or where quads for the mean would shear
-    /// the reference for little (without symmetry, `convex` only).
+    /// Empty: `mean`, and `reference` where `alpha` is 0, with the paper's field, or where quads
+    /// for the mean would shear the reference for little (without symmetry, `convex` only).
     std::optional<MetricChoice> metric;
     int reference = 0;     ///< frame that is the reference, or `rest_shape`
     int relax_rounds = 8;  ///< passes in which vertices slide towards squares; 0: none

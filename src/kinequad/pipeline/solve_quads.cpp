@@ -178,6 +178,23 @@ QuadMesh separate_from_curve(QuadMesh quads, const Domain& domain,
         });
 }
 
+/// How far quads of a run on `vertex_count` vertices are relaxed.
+RelaxOptions relax_options(const Options& run, int vertex_count) {
+    RelaxOptions options;
+    options.rounds = run.relax_rounds;
+    if (run.symmetry == SymmetryMode::none) return options;
+    // Quads that serve both sides have farther to go than those of a map without symmetry. Of many
+    // vertices there are fewer frames, so that memory stays within bounds.
+    constexpr int most_frames = 24;
+    constexpr int most_positions = 6'000'000;
+    options.rounds = 2 * run.relax_rounds;
+    options.settling_frames = std::min(most_frames, most_positions / std::max(1, vertex_count));
+    const bool is_mirrored = run.symmetry == SymmetryMode::exact;
+    options.settling_rounds = is_mirrored ? 16 : 12;
+    options.gap_limit = is_mirrored ? 0.46 : 0.43;
+    return options;
+}
+
 }  // namespace
 
 IntrinsicMetric choose_metric(const FrameSource& frames, const Topology& topology,
@@ -246,8 +263,7 @@ QuadMesh relax_on_domain(const Domain& domain, const std::vector<DomainView>& vi
                          const std::vector<int>& feature_edges, const QuadMesh& quads,
                          const Options& run, const Context& context) {
     if (run.relax_rounds == 0) return quads;
-    RelaxOptions options;
-    options.rounds = run.relax_rounds;
+    RelaxOptions options = relax_options(run, domain.surface.mesh.vertex_count);
     options.reference_frame = is_single_pose(run) ? std::optional<int>(0)
                               : run.reference != Options::rest_shape
                                   ? std::optional<int>(run.reference)

@@ -168,12 +168,6 @@ void require_on_curve(const QuadMesh& quads, const LevelSplit& split) {
     }
 }
 
-/// Quads that serve both sides have farther to go than those of a map without symmetry.
-Options twice_relaxed(Options options) {
-    options.relax_rounds *= 2;
-    return options;
-}
-
 /// The quads of both sides, from those of the half, relaxed unless the sides `are_tied`, as where
 /// they are alike: each finds its own place on the surface.
 QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const QuadMesh& half,
@@ -199,7 +193,7 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
         for (SurfacePoint& point : whole.vertex) point = search.find(point);
         require_on_curve(whole, split);
         whole.vertex = relax_on_domain(cut.domain(), {cut.view()}, cut.domain().feature_edges,
-                                       whole, twice_relaxed(result.options), context)
+                                       whole, result.options, context)
                            .vertex;
         for (SurfacePoint& point : whole.vertex) point = point_of_input(split.mesh, point);
     }
@@ -304,7 +298,7 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
     const bool are_tied = are_alike(views[0], views[1], half_topology);
     const QuadMesh half_quads =
         are_tied ? relax_on_domain(result.domain, views, result.map.feature_edges, solved,
-                                   twice_relaxed(result.options), context)
+                                   result.options, context)
                  : solved;
     QuadMesh quads = mirror_quads(surface, result, half_quads, are_tied, context);
     result.mirror = judge_mirror(surface, result.symmetry->map, quads);

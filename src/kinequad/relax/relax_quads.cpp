@@ -21,13 +21,13 @@ constexpr int most_unfolding_passes = 16;
 constexpr int most_fitting_rounds = 10;
 constexpr int most_rounds_in_vain = 4;
 
-/// The references, then the other frames.
-std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views,
+/// The references, then the other frames: `most` of each view at most, evenly chosen.
+std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views, int most,
                                         const RelaxOptions& options) {
     std::vector<SampledFrame> sampled;
     sampled.reserve(views.size());
     const auto wanted = [&](const RelaxView& view) {
-        return std::clamp(options.sampled_frames, 1, view.frames.frame_count());
+        return std::clamp(most, 1, view.frames.frame_count());
     };
     for (const RelaxView& view : views) {
         sampled.push_back({view.reference, 0.25 * wanted(view) + 0.75});
@@ -136,22 +136,22 @@ void fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
 }
 
 /// Brings quads and input together in all frames, and takes back what that and `fit_surface` have
-/// cost: vertices go on towards right angles, for as many passes as there are rounds, but for those
-/// of quads that are about to leave the surface, and gaps are closed again after every few.
-/// Returns the distances that `close_gaps` leaves.
-std::vector<double> settle(SlidingQuads& sliding, double limit, const RelaxOptions& options,
-                           const Context& context) {
+/// cost: vertices go on towards right angles for `rounds` passes, but for those of quads that are
+/// about to leave the surface, and gaps are closed again after every few. Returns the distances
+/// that `close_gaps` leaves.
+std::vector<double> settle(SlidingQuads& sliding, double limit, int rounds,
+                           const RelaxOptions& options, const Context& context) {
     constexpr int passes_between = 8;
     constexpr double held_share = 0.7;
     std::vector<double> distances = sliding.close_gaps(options.gap_limit, context);
-    for (int passes = 0; passes < options.rounds; ++passes) {
+    for (int passes = 0; passes < rounds; ++passes) {
         if (passes % passes_between == 0) {
             for (std::size_t q = 0; q < distances.size(); ++q) {
                 if (distances[q] > held_share) sliding.hold(static_cast<int>(q));
             }
         }
         sliding.relax_pass(SlidingQuads::Aim::right_angles, limit, context);
-        if ((passes + 1) % passes_between == 0 || passes + 1 == options.rounds) {
+        if ((passes + 1) % passes_between == 0 || passes + 1 == rounds) {
             distances = sliding.close_gaps(options.gap_limit, context);
         }
     }
@@ -164,7 +164,7 @@ std::vector<double> settle(SlidingQuads& sliding, double limit, const RelaxOptio
 void start_again(SlidingQuads& sliding, const SlidingQuads::State& early,
                  std::vector<double> distances, const RelaxOptions& options,
                  const Context& context) {
-    constexpr double far = 1.1;
+    constexpr double far = 1;
     constexpr int reach = 1;
     const Fit before = judge(sliding, std::move(distances), 1);
     std::vector<int> region;
@@ -181,46 +181,77 @@ void start_again(SlidingQuads& sliding, const SlidingQuads::State& early,
     keep_better_regions(sliding, before, now, 1);
 }
 
-}  // namespace
-
-QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
-                     const Topology& topology, const IntrinsicMetric& metric,
-                     const RelaxOptions& options, const Context& context) {
-    SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
-                         sample_frames(views, options), static_cast<int>(views.size()));
-    sliding.let_slide(options.line_edges);
-    const double limit = options.distance_limit * sliding.mean_edge_length();
-    const int square_rounds = options.rounds;
-    const int angle_rounds = options.rounds + options.rounds / 2;
+/// Passes over all vertices, towards squares, then towards right angles, with tips covered every
+/// few. Returns what the quads were after the first of these.
+SlidingQuads::State slide(SlidingQuads& sliding, double limit, int rounds, const Context& context) {
+    const int angle_rounds = rounds + rounds / 2;
     SlidingQuads::State early = sliding.state();
-    for (int round = 0; round < square_rounds + angle_rounds; ++round) {
-        context.report_progress("relaxation",
-                                static_cast<double>(round) / (square_rounds + angle_rounds));
-        const bool is_for_squares = round < square_rounds;
+    for (int round = 0; round < rounds + angle_rounds; ++round) {
+        context.report_progress("relaxation", static_cast<double>(round) / (rounds + angle_rounds));
+        const bool is_for_squares = round < rounds;
         sliding.relax_pass(
             is_for_squares ? SlidingQuads::Aim::squares : SlidingQuads::Aim::right_angles, limit,
             context);
         const int mending_interval = is_for_squares ? 2 : 4;
-        if ((round + 1) % mending_interval != 0 && round + 1 != square_rounds) continue;
+        if ((round + 1) % mending_interval != 0 && round + 1 != rounds) continue;
         // What covers tips now may be better used elsewhere than what did before.
         sliding.release();
         sliding.hug_surface(limit, 0, context);
         sliding.cover_extremities(limit, context);
         if (round < mending_interval) early = sliding.state();
     }
-    fit_surface(sliding, limit, context);
-    start_again(sliding, early, settle(sliding, limit, options, context), options, context);
+    return early;
+}
+
+/// Whether some view has frames for `settling_frames` that are not sampled anyway.
+bool has_more_frames(const std::vector<RelaxView>& views, const RelaxOptions& options) {
+    return std::any_of(views.begin(), views.end(), [&](const RelaxView& view) {
+        return std::min(options.settling_frames, view.frames.frame_count()) >
+               options.sampled_frames;
+    });
+}
+
+void warn_of_folded(const SlidingQuads& sliding, const Context& context) {
     int folded = 0;
-    for (int q = 0; q < static_cast<int>(quads.Q.rows()); ++q) {
+    for (int q = 0; q < static_cast<int>(sliding.quads().Q.rows()); ++q) {
         if (sliding.is_folded(q)) ++folded;
     }
-    if (folded > 0) {
-        context.write_log(
-            LogLevel::warning,
-            fmt::format("relaxation: {} quads stay folded in the reference frame", folded));
+    if (folded == 0) return;
+    context.write_log(
+        LogLevel::warning,
+        fmt::format("relaxation: {} quads stay folded in the reference frame", folded));
+}
+
+}  // namespace
+
+QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
+                     const Topology& topology, const IntrinsicMetric& metric,
+                     const RelaxOptions& options, const Context& context) {
+    const auto start = [&](const QuadMesh& from, int frames) {
+        SlidingQuads sliding(from, topology, metric, views.front().frames.triangles(),
+                             sample_frames(views, frames, options), static_cast<int>(views.size()));
+        sliding.let_slide(options.line_edges);
+        return sliding;
+    };
+    std::optional<SlidingQuads> sliding(start(quads, options.sampled_frames));
+    const double limit = options.distance_limit * sliding->mean_edge_length();
+    const SlidingQuads::State early = slide(*sliding, limit, options.rounds, context);
+    fit_surface(*sliding, limit, context);
+    const auto bring_together = [&](int rounds) {
+        start_again(*sliding, early, settle(*sliding, limit, rounds, options, context), options,
+                    context);
+    };
+    bring_together(options.rounds);
+    if (has_more_frames(views, options)) {
+        // The few frames are let go before the many come.
+        const QuadMesh settled = sliding->quads();
+        sliding.reset();
+        sliding.emplace(start(settled, options.settling_frames));
+        bring_together(options.settling_rounds);
     }
+    warn_of_folded(*sliding, context);
     context.report_progress("relaxation", 1);
-    return sliding.quads();
+    return sliding->quads();
 }
 
 }  // namespace kinequad

@@ -14,9 +14,14 @@ struct RelaxOptions {
     /// Frames of each view whose quads are looked at, evenly chosen, the reference among them. At
     /// least 1.
     int sampled_frames = 8;
+    /// Frames of each view that gaps are looked for in once more after that, so that poses between
+    /// the sampled ones count, where there are more than those.
+    int settling_frames = 0;
+    /// Passes over all vertices that follow then.
+    int settling_rounds = 8;
     /// The reference is this frame, which is not looked at twice; empty where it is no frame.
     std::optional<int> reference_frame = 0;
-    /// Passes over all vertices.
+    /// Passes over all vertices, of each kind.
     int rounds = 8;
     /// Vertices of the input farther than this from the quads, in edge lengths of the quads, get a
     /// quad vertex of their own while quads slide: finger tips, ears. At last `gap_limit` counts.

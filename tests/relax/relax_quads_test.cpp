@@ -403,6 +403,28 @@ TEST(RelaxQuads, CoversATipAndLeavesTheRestSquare) {
     }
 }
 
+TEST(RelaxQuads, SettlesInFramesBetweenTheSampledOnes) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    Positions flattened = grid.mesh.V;
+    flattened(tip, 2) = 0;
+    std::vector<Positions> frames(12, flattened);
+    frames[7] = grid.mesh.V;
+    const MemorySequence sequence(grid.mesh.F, frames);
+    const auto farthest = [&](int settling_frames) {
+        Grid after = grid;
+        after.quads = relax_quads(grid.quads, {{sequence, flattened}}, grid.topology, grid.metric,
+                                  {.sampled_frames = 3, .settling_frames = settling_frames}, {});
+        grid.expect_kept(after.quads);
+        EXPECT_GT(grid.least_jacobian(after.quads, flattened), 0.1);
+        const std::vector<double> distances = after.sliding({{grid.mesh.V, 1}}).distances({});
+        return *std::max_element(distances.begin(), distances.end());
+    };
+    // Of twelve frames three are 0, 4 and 8; four would be 0, 3, 6 and 9.
+    for (const int too_few : {0, 3, 4}) EXPECT_GT(farthest(too_few), 0.6 / 6);
+    EXPECT_LT(farthest(12), 0.5 / 6);
+}
+
 TEST(RelaxQuads, ImprovesAllFramesTogetherAndKeepsTheMesh) {
     const Grid grid(landscape(14, hill), 7, 0.45);
     std::vector<Positions> frames;

@@ -180,6 +180,18 @@ TEST(ComputeGridMap, RefusesAFieldWhoseIndicesAreWrong) {
                  GridMapError);
 }
 
+TEST(ComputeGridMap, GivesUpLinesThatCrossesDoNotFollow) {
+    const test::Surface surface = test::surface_of(test::sphere(3));
+    GridMapOptions options;
+    options.vertex_count = 300;
+    // Around a triangle a line turns by 120 degrees at every corner, and crosses by 90.
+    options.line_edges = {surface.topology.edge[0], surface.topology.edge[1],
+                          surface.topology.edge[2]};
+    const GridMap map = compute_grid_map(surface.topology, surface.metric, test::field_of(surface),
+                                         options, Context{});
+    expect_valid(surface, map);
+}
+
 TEST(EdgeLengthFor, SolvesTheCountOfASquareGrid) {
     const test::Surface square = test::surface_of(test::square(3));
     for (const int k : {1, 5, 40}) {

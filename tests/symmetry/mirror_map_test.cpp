@@ -6,6 +6,7 @@
 #include "kinequad/io/memory_sequence.h"
 #include "kinequad/symmetry/compute_mirror_map.h"
 #include "kinequad/symmetry/find_mirror_plane.h"
+#include "kinequad/symmetry/match_parts.h"
 #include "kinequad/symmetry/stationary_curve.h"
 #include "kinequad/symmetry/verify_symmetry_map.h"
 #include "kinequad/synth/synthesize_creature.h"
@@ -96,6 +97,91 @@ TEST(MirrorMap, MapsComponentsToTheirPartners) {
         EXPECT_EQ(part, 2 - v / n);
     }
     EXPECT_LT(test::map_errors(mesh, map.vertex_image, test::mirror_in_x(mesh.V)).maxCoeff(), 1e-9);
+}
+
+/// A body, a limb and its mirror image, which is turned and shifted away from where it would
+/// mirror, so that no plane mirrors all of them.
+test::SymmetricShape body_with_a_moved_limb() {
+    test::SymmetricShape body = test::bumpy_ellipsoid(3);
+    TriangleMesh limb = test::sphere(3);
+    for (Eigen::Index v = 0; v < limb.V.rows(); ++v) {
+        const Vector3 p = limb.V.row(v).transpose();
+        const double bump = 0.3 * std::exp(-6 * (p - Vector3(0.6, 0.7, 0.4)).squaredNorm());
+        limb.V.row(v) = (0.3 + bump) * Vector3(2 * p[0] + 0.3 * p[1], p[1], 0.8 * p[2]).transpose();
+    }
+    const Eigen::Matrix3d turned =
+        Eigen::AngleAxisd(0.06, Vector3(1, 2, 1).normalized()).toRotationMatrix();
+    const Eigen::Index n = body.mesh.V.rows();
+    const Eigen::Index k = limb.V.rows();
+    test::SymmetricShape shape;
+    shape.mesh.V.resize(n + 2 * k, 3);
+    shape.mesh.V.topRows(n) = body.mesh.V;
+    for (Eigen::Index v = 0; v < k; ++v) {
+        const Vector3 p = limb.V.row(v).transpose() + Vector3(2, 0.2, 0);
+        const Vector3 mirrored = turned * Vector3(-p[0], p[1], p[2]) + Vector3(0.05, 0.15, 0.1);
+        shape.mesh.V.row(n + v) = p.transpose();
+        shape.mesh.V.row(n + k + v) = mirrored.transpose();
+    }
+    Triangles reversed = limb.F;
+    reversed.col(1) = limb.F.col(2);
+    reversed.col(2) = limb.F.col(1);
+    shape.mesh.F.resize(body.mesh.F.rows() + 2 * limb.F.rows(), 3);
+    shape.mesh.F << body.mesh.F, limb.F.array() + static_cast<int>(n),
+        reversed.array() + static_cast<int>(n + k);
+    shape.mirror = body.mirror;
+    for (const Eigen::Index other : {n + k, n}) {
+        for (Eigen::Index v = 0; v < k; ++v) shape.mirror.push_back(static_cast<int>(other + v));
+    }
+    return shape;
+}
+
+TEST(MirrorMap, MirrorsPartsOneByOneWhereThePoseIsNotSymmetric) {
+    const test::SymmetricShape shape = body_with_a_moved_limb();
+    const TriangleMesh& mesh = shape.mesh;
+    const MirrorPlane plane = find_mirror_plane(mesh, {});
+    EXPECT_GT(plane.residual_percent, 3 * symmetric_pose_percent);
+    const SymmetryMap map = compute_mirror_map(mesh, plane, test::metric_of(mesh), {});
+    EXPECT_LT(test::map_errors(mesh, map.vertex_image, shape.mirror).maxCoeff(), 0.1);
+    EXPECT_EQ(map.quality.reversed_triangles, 0);
+    EXPECT_LT(map.quality.involution_max_percent, 0.05);
+    // The line runs around the body; each limb is on one side of it.
+    EXPECT_EQ(map.stationary.size(), 1U);
+    const Eigen::Index body = test::sphere(3).V.rows();
+    const Eigen::Index limb = (mesh.V.rows() - body) / 2;
+    const double sign = map.height[body] > 0 ? 1 : -1;
+    EXPECT_GT((sign * map.height.segment(body, limb)).minCoeff(), 0);
+    EXPECT_LT((sign * map.height.tail(limb)).maxCoeff(), 0);
+}
+
+TEST(MatchParts, PairsThoseThatAreLeftByPlace) {
+    // Four small spheres on a ring, none of which falls on another when mirrored in x = 0.
+    const TriangleMesh one = test::sphere(2);
+    const std::vector<Vector3> place = {{-3, 0.5, 0}, {3, -0.5, 0}, {-2.9, 4, 0}, {3.2, 3.3, 0}};
+    const Eigen::Index n = one.V.rows();
+    TriangleMesh mesh;
+    mesh.V.resize(4 * n, 3);
+    mesh.F.resize(4 * one.F.rows(), 3);
+    std::vector<std::vector<int>> parts(4);
+    for (Eigen::Index i = 0; i < 4; ++i) {
+        const std::size_t part = static_cast<std::size_t>(i);
+        mesh.V.middleRows(i * n, n) = (0.3 * one.V).rowwise() + place[part].transpose();
+        mesh.F.middleRows(i * one.F.rows(), one.F.rows()) = one.F.array() + static_cast<int>(i * n);
+        for (Eigen::Index t = 0; t < one.F.rows(); ++t) {
+            parts[part].push_back(static_cast<int>(i * one.F.rows() + t));
+        }
+    }
+    const std::vector<PartMatch> matches =
+        match_parts(mesh, parts, {Vector3::UnitX(), 0, 5 * symmetric_pose_percent}, {});
+    const std::vector<int> partner = {1, 0, 3, 2};
+    for (std::size_t i = 0; i < 4; ++i) {
+        ASSERT_EQ(matches[i].partner, partner[i]);
+        const Vector3 there = place[static_cast<std::size_t>(partner[i])];
+        EXPECT_LT((matches[i].motion(place[i]) - there).norm(), 1e-3);
+        EXPECT_NEAR(matches[i].motion.linear.determinant(), -1, 1e-9);
+        // Back again is where it came from.
+        const MirrorMotion& back = matches[static_cast<std::size_t>(partner[i])].motion;
+        EXPECT_LT((back(matches[i].motion(Vector3(1, 2, 3))) - Vector3(1, 2, 3)).norm(), 1e-9);
+    }
 }
 
 TEST(MirrorMap, IsRefusedWhereThePlaneMissesTheSurface) {

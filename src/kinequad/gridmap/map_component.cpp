@@ -258,7 +258,16 @@ Attempt map_at_density(ChartedMesh mesh, const WantedQuads& wanted, const Contex
         context.check_cancelled();
         const std::vector<char> nodes = find_nodes(mesh);
         const CutGraph cut = cut_to_discs(mesh, nodes);
-        MapVariables variables = build_map_variables(mesh, cut, nodes);
+        std::optional<MapVariables> built;
+        try {
+            built = build_map_variables(mesh, cut, nodes);
+        } catch (const GridMapError& error) {
+            // Crosses do not follow all lines on a surface that is coarse for them.
+            attempt.obstacle = error.what();
+            attempt.depends_on_density = false;
+            return attempt;
+        }
+        MapVariables& variables = *built;
         TriangleSystem system(variables);
         const std::vector<TargetShape> shapes = target_shapes(mesh, 1);
         context.write_log(LogLevel::debug,

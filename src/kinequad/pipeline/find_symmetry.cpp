@@ -10,8 +10,8 @@
 namespace kinequad {
 namespace {
 
-/// Residual of a mirror plane, in percent of the diagonal, up to which a pose counts as symmetric.
-constexpr double symmetric_pose_percent = 0.1;
+/// The same where parts are mirrored one by one, since no landmarks can be given for every part.
+constexpr double nearly_symmetric_percent = 1;
 
 }  // namespace
 
@@ -25,20 +25,32 @@ FoundSymmetry find_symmetry(const FrameSource& source, const IntrinsicMetric& me
         found.map = compute_symmetry_map(mesh, metric, *landmarks, {}, context);
         context.write_log(LogLevel::info, "symmetry: from the landmarks");
     } else {
-        const std::optional<SymmetricPose> pose =
+        const bool has_parts =
+            count_surface(build_topology(source.triangles(), source.vertex_count())).components > 1;
+        const double tolerated = has_parts ? nearly_symmetric_percent : symmetric_pose_percent;
+        std::optional<SymmetricPose> pose =
             find_symmetric_pose(source, symmetric_pose_percent, context);
+        if (!pose && has_parts) pose = find_symmetric_pose(source, tolerated, context);
         if (!pose) {
             throw InputError(
                 InputFault::symmetry,
                 fmt::format("{}: no pose that was looked at is its own mirror image within {} % of "
                             "the diagonal; give --landmarks",
-                            source.name(), symmetric_pose_percent));
+                            source.name(), tolerated));
         }
+        const double residual = pose->plane.residual_percent;
+        const std::string name =
+            pose->frame < 0 ? "the rest shape" : fmt::format("frame {}", pose->frame);
         context.write_log(
             LogLevel::info,
-            fmt::format("symmetry: {} mirrors in a plane within {:.4f} % of the diagonal",
-                        pose->frame < 0 ? "the rest shape" : fmt::format("frame {}", pose->frame),
-                        pose->plane.residual_percent));
+            fmt::format("symmetry: {} mirrors in a plane within {:.4f} % of the diagonal", name,
+                        residual));
+        if (residual > symmetric_pose_percent) {
+            context.write_log(LogLevel::warning,
+                              fmt::format("symmetry: {} is not quite symmetric ({:.2f} % of the "
+                                          "diagonal off); its parts are mirrored one by one",
+                                          name, residual));
+        }
         mesh = pose->mesh;
         found.map = compute_mirror_map(mesh, pose->plane, metric, context);
     }

@@ -11,6 +11,7 @@
 #include "kinequad/mesh/closest_point_on_triangle.h"
 #include "kinequad/mesh/closest_points.h"
 #include "kinequad/symmetry/compute_transport.h"
+#include "kinequad/symmetry/match_parts.h"
 #include "kinequad/symmetry/stationary_curve.h"
 #include "kinequad/symmetry/verify_symmetry_map.h"
 
@@ -26,7 +27,8 @@ struct Component {
 /// The surface by components, and which one mirrors which.
 class MirroredSurface {
 public:
-    MirroredSurface(const TriangleMesh& mesh, const Topology& topology, const MirrorPlane& plane)
+    MirroredSurface(const TriangleMesh& mesh, const Topology& topology, const MirrorPlane& plane,
+                    const Context& context)
         : mesh_(mesh),
           topology_(topology),
           plane_(plane),
@@ -37,6 +39,7 @@ public:
         for (int t = 0; t < topology.triangle_count; ++t) {
             members[at(component_[at(t)])].push_back(t);
         }
+        match_ = match_parts(mesh, members, plane, context);
         for (std::vector<int>& triangles : members) {
             Triangles F(static_cast<Eigen::Index>(triangles.size()), 3);
             for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -51,18 +54,18 @@ public:
             const Vector3 a = corner(t, 0);
             normals_.row(t) = (corner(t, 1) - a).cross(corner(t, 2) - a).normalized().transpose();
         }
-        choose_partners();
     }
 
     /// Image of a point of component `component` whose surface faces along `normal`; `hint` is a
     /// triangle probably near the image, or -1.
     SurfacePoint image(const Vector3& point, const Vector3& normal, int component, int hint) const {
-        const Vector3 goal = plane_.reflect(point);
-        const Component& partner = components_[at(partner_[at(component)])];
+        const PartMatch& match = match_[at(component)];
+        const Vector3 goal = match.motion(point);
+        const Component& partner = components_[at(match.partner)];
         const int local_hint = hint < 0 ? -1 : local_[at(hint)];
         const SurfacePoint local = partner.search.find(goal, local_hint).point;
         SurfacePoint nearest{partner.triangle[at(local.triangle)], local.barycentric};
-        const Vector3 facing = normal - 2 * normal.dot(plane_.normal) * plane_.normal;
+        const Vector3 facing = match.motion.linear * normal;
         if (normals_.row(nearest.triangle).dot(facing) >= 0) return nearest;
         // Where parts touch, the nearest point can be that of the other part: the nearest that
         // faces the same way is asked for.
@@ -92,25 +95,47 @@ public:
     }
     int component_of(int t) const { return component_[at(t)]; }
 
-private:
-    /// Every component votes with its triangle centres.
-    void choose_partners() {
-        const ClosestPoints all(mesh_.V, mesh_.F);
-        for (const Component& component : components_) {
-            std::vector<int> votes(components_.size(), 0);
-            if (components_.size() == 1) votes[0] = 1;
-            int hint = -1;
-            const std::size_t step = std::max<std::size_t>(1, component.triangle.size() / 500);
-            for (std::size_t i = 0; components_.size() > 1 && i < component.triangle.size();
-                 i += step) {
-                const int t = component.triangle[i];
-                const Vector3 centre = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
-                hint = all.find(plane_.reflect(centre), hint).point.triangle;
-                ++votes[at(component_[at(hint)])];
+    /// n: signed heights over the plane in shares of `diagonal`; of a pose that is mirrored part by
+    /// part, over the middle between each point and its image.
+    Eigen::VectorXd heights(double diagonal) const {
+        Eigen::VectorXd height = (mesh_.V * plane_.normal).array() - plane_.offset;
+        if (plane_.residual_percent > symmetric_pose_percent) {
+            const std::vector<char> is_positive = positive_parts();
+            for (Eigen::Index v = 0; v < height.size(); ++v) {
+                const int h = topology_.vertex_half_edge[at(static_cast<int>(v))];
+                if (h < 0) continue;
+                const int part = component_of(h / 3);
+                const PartMatch& match = match_[at(part)];
+                const Vector3 p = mesh_.V.row(v).transpose();
+                height[v] = (p - match.motion(p)).dot(plane_.normal) / 2;
+                if (match.partner == part) continue;
+                // No curve crosses a part whose image is another.
+                const double least = 1e-3 * diagonal;
+                const double above = std::max(least, std::abs(height[v]));
+                height[v] = is_positive[at(part)] != 0 ? above : -above;
             }
-            const auto most = std::max_element(votes.begin(), votes.end());
-            partner_.push_back(static_cast<int>(most - votes.begin()));
         }
+        return height / diagonal;
+    }
+
+private:
+    /// Of two partners the one that is farther on the positive side of the plane.
+    std::vector<char> positive_parts() const {
+        std::vector<double> height(components_.size(), 0);
+        for (std::size_t c = 0; c < components_.size(); ++c) {
+            for (const int t : components_[c].triangle) {
+                for (int k = 0; k < 3; ++k) height[c] += corner(t, k).dot(plane_.normal);
+            }
+            height[c] /= 3 * static_cast<double>(components_[c].triangle.size());
+        }
+        std::vector<char> is_positive(components_.size(), 1);
+        for (std::size_t c = 0; c < components_.size(); ++c) {
+            const std::size_t other = at(match_[c].partner);
+            const bool is_lower = height[c] < height[other];
+            const bool is_tie = height[c] == height[other] && c > other;
+            if (is_lower || is_tie) is_positive[c] = 0;
+        }
+        return is_positive;
     }
 
     const TriangleMesh& mesh_;
@@ -119,7 +144,7 @@ private:
     std::vector<int> component_;
     std::vector<int> local_;  ///< number of a triangle within its component
     std::vector<Component> components_;
-    std::vector<int> partner_;
+    std::vector<PartMatch> match_;
     Positions normals_;
 };
 
@@ -162,7 +187,7 @@ SymmetryMap compute_mirror_map(const TriangleMesh& mesh, const MirrorPlane& plan
     const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));
     require(topology.triangle_count > 0, InputFault::mesh,
             "the surface has no triangle; give one with faces");
-    const MirroredSurface surface(mesh, topology, plane);
+    const MirroredSurface surface(mesh, topology, plane, context);
     SymmetryMap map;
     map.method = "mirror plane";
     map.quality.mirror_residual_percent = plane.residual_percent;
@@ -182,11 +207,9 @@ SymmetryMap compute_mirror_map(const TriangleMesh& mesh, const MirrorPlane& plan
         compute_transport(topology, metric, map.vertex_image, map.centre_image, context);
     map.transport = transport.angle;
     map.quality.reversed_triangles = transport.reversed_triangles;
-    const double diagonal = bounding_box_diagonal(mesh.V);
-    Eigen::VectorXd height = (mesh.V * plane.normal).array() - plane.offset;
-    height /= diagonal;
     StationaryCurve curve =
-        trace_stationary_curve(topology, metric, height, topology.triangle_count, 0.02);
+        trace_stationary_curve(topology, metric, surface.heights(bounding_box_diagonal(mesh.V)),
+                               topology.triangle_count, 0.02);
     require(!curve.polylines.empty(), InputFault::symmetry,
             "the mirror plane does not cut the surface; the line of symmetry would be empty");
     map.height = std::move(curve.height);

@@ -101,6 +101,24 @@ std::vector<Vector3> starting_normals(const Samples& samples, const Vector3& cen
     return normals;
 }
 
+/// Improves a plane until that gains nothing any more. `percent` is what a length is multiplied by.
+MirrorPlane settle_plane(const ClosestPoints& surface, const Samples& samples, MirrorPlane plane,
+                         double percent, const Context& context) {
+    constexpr int most_rounds = 60;
+    std::vector<int> hints;
+    plane.residual_percent = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < most_rounds; ++round) {
+        Step step = improve_plane(surface, samples, plane, hints, context);
+        const double residual = step.rms * percent;
+        const bool is_settled = residual > 0.999 * plane.residual_percent;
+        plane.residual_percent = residual;
+        if (is_settled || residual < 1e-9 || round == most_rounds - 1) break;
+        step.next.residual_percent = residual;
+        plane = step.next;
+    }
+    return plane;
+}
+
 MirrorPlane search_plane(const TriangleMesh& mesh, double hopeless_percent,
                          const Context& context) {
     const ClosestPoints surface(mesh.V, mesh.F);
@@ -128,18 +146,7 @@ MirrorPlane search_plane(const TriangleMesh& mesh, double hopeless_percent,
     if (best.residual_percent > hopeless_percent) return best;
     bool is_first = true;
     for (std::size_t i = 0; i < 3; ++i) {
-        MirrorPlane plane = found[i].second;
-        std::vector<int> hints;
-        plane.residual_percent = std::numeric_limits<double>::infinity();
-        for (int round = 0; round < 60; ++round) {
-            Step step = improve_plane(surface, fine, plane, hints, context);
-            const double residual = step.rms * percent;
-            const bool is_settled = residual > 0.999 * plane.residual_percent;
-            plane.residual_percent = residual;
-            if (is_settled || residual < 1e-9 || round == 59) break;
-            step.next.residual_percent = residual;
-            plane = step.next;
-        }
+        const MirrorPlane plane = settle_plane(surface, fine, found[i].second, percent, context);
         if (is_first || plane.residual_percent < best.residual_percent) best = plane;
         is_first = false;
         if (best.residual_percent < 0.01) break;
@@ -151,6 +158,12 @@ MirrorPlane search_plane(const TriangleMesh& mesh, double hopeless_percent,
 
 MirrorPlane find_mirror_plane(const TriangleMesh& mesh, const Context& context) {
     return search_plane(mesh, 100, context);
+}
+
+MirrorPlane refine_mirror_plane(const TriangleMesh& mesh, const MirrorPlane& start,
+                                const Context& context) {
+    return settle_plane(ClosestPoints(mesh.V, mesh.F), sample_surface(mesh, 2500), start,
+                        100 / bounding_box_diagonal(mesh.V), context);
 }
 
 std::optional<SymmetricPose> find_symmetric_pose(const FrameSource& frames,

@@ -8,6 +8,10 @@
 
 namespace kinequad {
 
+/// Residual of a mirror plane, in percent of the diagonal, up to which a pose counts as symmetric;
+/// farther from it, a map from landmarks is better.
+inline constexpr double symmetric_pose_percent = 0.1;
+
 /// A plane that mirrors a shape, approximately.
 struct MirrorPlane {
     Vector3 normal = Vector3::UnitX();  ///< unit vector
@@ -23,6 +27,11 @@ struct MirrorPlane {
 /// starts [Besl and McKay 1992]; always returns one, with its residual. Throws `InputError` (mesh)
 /// where there is no triangle.
 MirrorPlane find_mirror_plane(const TriangleMesh& mesh, const Context& context);
+
+/// The plane near `start` in which `mesh` mirrors best, by the same from that start alone. Throws
+/// `InputError` (mesh) where there is no triangle.
+MirrorPlane refine_mirror_plane(const TriangleMesh& mesh, const MirrorPlane& start,
+                                const Context& context);
 
 /// A pose of an animation that a plane mirrors.
 struct SymmetricPose {

@@ -187,9 +187,9 @@ RelaxOptions relax_options(const Options& run, int vertex_count) {
     // vertices there are fewer frames, so that memory stays within bounds.
     constexpr int most_frames = 24;
     constexpr int most_positions = 6'000'000;
-    options.rounds = 2 * run.relax_rounds;
     options.settling_frames = std::min(most_frames, most_positions / std::max(1, vertex_count));
     const bool is_mirrored = run.symmetry == SymmetryMode::exact;
+    options.rounds = run.relax_rounds * (is_mirrored ? 9 : 8) / 4;
     options.settling_rounds = is_mirrored ? 16 : 12;
     options.gap_limit = is_mirrored ? 0.46 : 0.43;
     return options;

@@ -5,7 +5,9 @@
 
 #include "kinequad/deformation/compute_mean_metric.h"
 #include "kinequad/io/open_sequence.h"
+#include "kinequad/symmetry/compute_mirror_map.h"
 #include "kinequad/symmetry/compute_symmetry_map.h"
+#include "kinequad/symmetry/find_mirror_plane.h"
 #include "kinequad/symmetry/verify_symmetry_map.h"
 #include "support/data.h"
 #include "symmetry/symmetric_shapes.h"
@@ -70,6 +72,36 @@ INSTANTIATE_TEST_SUITE_P(
         name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
         return name;
     });
+
+TEST(RealParts, OfARoosterAreMirroredOneByOne) {
+    KINEQUAD_REQUIRE_DATA();
+    const auto frames = open_sequence((test::data_folder() / "sequences" / "chicken.obj").string());
+    const TriangleMesh mesh{frames->read_rest_shape(), frames->triangles()};
+    const MirrorPlane plane = find_mirror_plane(mesh, {});
+    EXPECT_GT(plane.residual_percent, symmetric_pose_percent);
+    const SymmetryMap map = compute_mirror_map(mesh, plane, test::metric_of(mesh), {});
+    const SymmetryReport report = verify_symmetry_map(mesh, map);
+    EXPECT_TRUE(report.is_complete) << report.problem;
+    EXPECT_LT(report.involution_mean_percent, 0.1);
+    EXPECT_LT(map.quality.reversed_triangles, 150);
+    // All 41 parts fall on one part, and back.
+    const Topology topology = build_topology(mesh.F, frames->vertex_count());
+    const std::vector<int> part = triangle_components(topology);
+    std::vector<int> partner(41, -1);
+    for (std::size_t t = 0; t < part.size(); ++t) {
+        int& of_part = partner[static_cast<std::size_t>(part[t])];
+        const int there = part[static_cast<std::size_t>(map.centre_image[t].triangle)];
+        if (of_part < 0) of_part = there;
+        EXPECT_EQ(of_part, there);
+    }
+    int alone = 0;
+    for (std::size_t p = 0; p < partner.size(); ++p) {
+        EXPECT_EQ(partner[static_cast<std::size_t>(partner[p])], static_cast<int>(p));
+        if (partner[p] == static_cast<int>(p)) ++alone;
+    }
+    // Body, head, tongue and the like, and some tail feathers; eyes, wings and feet are pairs.
+    EXPECT_LE(alone, 15);
+}
 
 class MakeHuman : public testing::TestWithParam<const char*> {};
 

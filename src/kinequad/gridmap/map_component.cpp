@@ -339,11 +339,13 @@ GridMap map_component(ChartedMesh mesh, const WantedQuads& wanted, const Context
     }
     separate_singularities(mesh);
     std::string obstacle;
+    bool depends_on_density = true;
     for (const double factor : densities) {
         Attempt attempt = map_at_density(mesh, {factor * quad_count, wanted.tolerance}, context);
         if (attempt.map) return std::move(*attempt.map);
         obstacle = attempt.obstacle;
-        if (!attempt.depends_on_density) break;
+        depends_on_density = attempt.depends_on_density;
+        if (!depends_on_density) break;
         context.write_log(LogLevel::info,
                           fmt::format("gridmap: not with {:.0f} quads on the part with triangle "
                                       "{} ({}); trying more",
@@ -362,9 +364,11 @@ GridMap map_component(ChartedMesh mesh, const WantedQuads& wanted, const Context
                         ChartedMesh::feature_line);
         return map_component(std::move(mesh), wanted, context);
     }
-    throw GridMapError(
-        fmt::format("no valid grid map for the part with triangle {}: {}; ask for more vertices",
-                    mesh.parent.front(), obstacle));
+    throw GridMapError(fmt::format(
+        "no valid grid map for the part with triangle {}: {}; {}", mesh.parent.front(), obstacle,
+        depends_on_density ? "ask for more vertices"
+                           : "refine the input there, or leave out lines, features "
+                             "or symmetry"));
 }
 
 }  // namespace kinequad

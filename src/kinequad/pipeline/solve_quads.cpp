@@ -186,7 +186,7 @@ RelaxOptions relax_options(const Options& run, int vertex_count) {
     // Quads that serve both sides have farther to go than those of a map without symmetry. Of many
     // vertices there are fewer frames, so that memory stays within bounds.
     constexpr int most_frames = 24;
-    constexpr int most_positions = 6'000'000;
+    constexpr int most_positions = 2'000'000;
     options.settling_frames = std::min(most_frames, most_positions / std::max(1, vertex_count));
     const bool is_mirrored = run.symmetry == SymmetryMode::exact;
     options.rounds = run.relax_rounds * (is_mirrored ? 9 : 8) / 4;

@@ -154,7 +154,8 @@ TEST(MirrorMap, MirrorsPartsOneByOneWhereThePoseIsNotSymmetric) {
 }
 
 TEST(MatchParts, PairsThoseThatAreLeftByPlace) {
-    // Four small spheres on a ring, none of which falls on another when mirrored in x = 0.
+    // Four ellipsoids, none of which falls on another when mirrored in x = 0. Each is symmetric in
+    // itself, so that it could be laid onto its partner in several ways.
     const TriangleMesh one = test::sphere(2);
     const std::vector<Vector3> place = {{-3, 0.5, 0}, {3, -0.5, 0}, {-2.9, 4, 0}, {3.2, 3.3, 0}};
     const Eigen::Index n = one.V.rows();
@@ -164,7 +165,8 @@ TEST(MatchParts, PairsThoseThatAreLeftByPlace) {
     std::vector<std::vector<int>> parts(4);
     for (Eigen::Index i = 0; i < 4; ++i) {
         const std::size_t part = static_cast<std::size_t>(i);
-        mesh.V.middleRows(i * n, n) = (0.3 * one.V).rowwise() + place[part].transpose();
+        mesh.V.middleRows(i * n, n) =
+            (one.V * Vector3(0.5, 0.3, 0.2).asDiagonal()).rowwise() + place[part].transpose();
         mesh.F.middleRows(i * one.F.rows(), one.F.rows()) = one.F.array() + static_cast<int>(i * n);
         for (Eigen::Index t = 0; t < one.F.rows(); ++t) {
             parts[part].push_back(static_cast<int>(i * one.F.rows() + t));
@@ -176,12 +178,55 @@ TEST(MatchParts, PairsThoseThatAreLeftByPlace) {
     for (std::size_t i = 0; i < 4; ++i) {
         ASSERT_EQ(matches[i].partner, partner[i]);
         const Vector3 there = place[static_cast<std::size_t>(partner[i])];
-        EXPECT_LT((matches[i].motion(place[i]) - there).norm(), 1e-3);
+        // The way that turns them least is meant.
+        for (const Vector3& d : {Vector3(0.5, 0, 0), Vector3(0, 0.3, 0), Vector3(0, 0, 0.2)}) {
+            const Vector3 mirrored = there + Vector3(-d[0], d[1], d[2]);
+            EXPECT_LT((matches[i].motion(place[i] + d) - mirrored).norm(), 1e-3);
+        }
         EXPECT_NEAR(matches[i].motion.linear.determinant(), -1, 1e-9);
         // Back again is where it came from.
         const MirrorMotion& back = matches[static_cast<std::size_t>(partner[i])].motion;
         EXPECT_LT((back(matches[i].motion(Vector3(1, 2, 3))) - Vector3(1, 2, 3)).norm(), 1e-9);
     }
+}
+
+TEST(MatchParts, LeavesAPartWithoutAPartnerToItself) {
+    // A body across the plane and something on one hip.
+    const test::SymmetricShape body = test::bumpy_ellipsoid(3);
+    const TriangleMesh ball = test::sphere(2);
+    const Eigen::Index n = body.mesh.V.rows();
+    TriangleMesh mesh;
+    mesh.V.resize(n + ball.V.rows(), 3);
+    mesh.V << body.mesh.V,
+        (ball.V * Vector3(0.1, 0.6, 0.05).asDiagonal()).rowwise() + Eigen::RowVector3d(2, 0.3, 0.1);
+    mesh.F.resize(body.mesh.F.rows() + ball.F.rows(), 3);
+    mesh.F << body.mesh.F, ball.F.array() + static_cast<int>(n);
+    std::vector<std::vector<int>> parts(2);
+    for (Eigen::Index t = 0; t < mesh.F.rows(); ++t) {
+        parts[t < body.mesh.F.rows() ? 0 : 1].push_back(static_cast<int>(t));
+    }
+    const std::vector<PartMatch> matches =
+        match_parts(mesh, parts, {Vector3::UnitX(), 0, 5 * symmetric_pose_percent}, {});
+    EXPECT_EQ(matches[0].partner, 0);
+    EXPECT_EQ(matches[1].partner, 1);
+    EXPECT_LT((matches[0].motion(Vector3(1, 2, 3)) - Vector3(-1, 2, 3)).norm(), 1e-2);
+    EXPECT_LT((matches[1].motion(Vector3(2.1, 0.5, 0.1)) - Vector3(1.9, 0.5, 0.1)).norm(), 1e-2);
+}
+
+TEST(StationaryCurve, KeepsTheLineOfASmallPart) {
+    // A button beside a body a hundred times as large, both across the plane.
+    const TriangleMesh ball = test::sphere(3);
+    const Eigen::Index n = ball.V.rows();
+    TriangleMesh mesh;
+    mesh.V.resize(2 * n, 3);
+    mesh.V << ball.V, (0.01 * ball.V).rowwise() + Eigen::RowVector3d(0, 1.1, 0);
+    mesh.F.resize(2 * ball.F.rows(), 3);
+    mesh.F << ball.F, ball.F.array() + static_cast<int>(n);
+    const Topology topology = build_topology(mesh.F, static_cast<int>(2 * n));
+    const Eigen::VectorXd height = mesh.V.col(0).array() + 1e-4;
+    const StationaryCurve curve = trace_stationary_curve(
+        topology, kinequad::metric_of(topology, mesh.V), height, topology.triangle_count, 0.02);
+    EXPECT_EQ(curve.polylines.size(), 2U);
 }
 
 TEST(MirrorMap, IsRefusedWhereThePlaneMissesTheSurface) {

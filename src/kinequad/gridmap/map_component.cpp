@@ -244,6 +244,10 @@ std::optional<MovingMap> find_whole_map(const MovingMap& real, const ConeTriangu
     return go_along_path(scaled(first->scale), *first, most_triangles, context);
 }
 
+bool has_lines(const ChartedMesh& mesh) {
+    return std::any_of(mesh.is_line.begin(), mesh.is_line.end(), [](char c) { return c != 0; });
+}
+
 /// The map at one density, or what stands in the way.
 struct Attempt {
     std::optional<GridMap> map;
@@ -263,6 +267,7 @@ Attempt map_at_density(ChartedMesh mesh, const WantedQuads& wanted, const Contex
             built = build_map_variables(mesh, cut, nodes);
         } catch (const GridMapError& error) {
             // Crosses do not follow all lines on a surface that is coarse for them.
+            if (!has_lines(mesh)) throw;
             attempt.obstacle = error.what();
             attempt.depends_on_density = false;
             return attempt;
@@ -338,6 +343,9 @@ GridMap map_component(ChartedMesh mesh, const WantedQuads& wanted, const Context
         std::replace(mesh.is_line.begin(), mesh.is_line.end(), ChartedMesh::feature_line, '\0');
     }
     separate_singularities(mesh);
+    const char* remedy = has_lines(mesh)
+                             ? "refine the input there, or leave out features or symmetry"
+                             : "refine the input there";
     std::string obstacle;
     bool depends_on_density = true;
     for (const double factor : densities) {
@@ -364,11 +372,9 @@ GridMap map_component(ChartedMesh mesh, const WantedQuads& wanted, const Context
                         ChartedMesh::feature_line);
         return map_component(std::move(mesh), wanted, context);
     }
-    throw GridMapError(fmt::format(
-        "no valid grid map for the part with triangle {}: {}; {}", mesh.parent.front(), obstacle,
-        depends_on_density ? "ask for more vertices"
-                           : "refine the input there, or leave out lines, features "
-                             "or symmetry"));
+    throw GridMapError(fmt::format("no valid grid map for the part with triangle {}: {}; {}",
+                                   mesh.parent.front(), obstacle,
+                                   depends_on_density ? "ask for more vertices" : remedy));
 }
 
 }  // namespace kinequad

@@ -10,7 +10,8 @@
 namespace kinequad {
 namespace {
 
-/// The same where parts are mirrored one by one, since no landmarks can be given for every part.
+/// Residual of a mirror plane, in percent of the diagonal, up to which a surface of several parts
+/// is mirrored part by part: landmarks serve parts only that close up along their seams.
 constexpr double nearly_symmetric_percent = 1;
 
 }  // namespace
@@ -28,9 +29,7 @@ FoundSymmetry find_symmetry(const FrameSource& source, const IntrinsicMetric& me
         const bool has_parts =
             count_surface(build_topology(source.triangles(), source.vertex_count())).components > 1;
         const double tolerated = has_parts ? nearly_symmetric_percent : symmetric_pose_percent;
-        std::optional<SymmetricPose> pose =
-            find_symmetric_pose(source, symmetric_pose_percent, context);
-        if (!pose && has_parts) pose = find_symmetric_pose(source, tolerated, context);
+        const std::optional<SymmetricPose> pose = find_symmetric_pose(source, tolerated, context);
         if (!pose) {
             throw InputError(
                 InputFault::symmetry,

@@ -18,9 +18,9 @@ struct FoundSymmetry {
 };
 
 /// The symmetry map of an animated surface: from landmarks on `metric`, the mean one mostly, or,
-/// where there are none, from the mirror plane of a pose that is symmetric in space. `metric` is
-/// over the source's edges; `reference` (n x 3) is the shape in which seams are found and distances
-/// reported.
+/// where there are none, from the mirror plane of a pose that is symmetric in space, or nearly so
+/// if the surface has several parts. `metric` is over the source's edges; `reference` (n x 3) is
+/// the shape in which seams are found and distances reported.
 ///
 /// Throws `InputError` (mesh) for a surface that is not manifold or oriented; (symmetry) where the
 /// landmarks do not fit, or there are none and no pose is symmetric; `VerificationError`;

@@ -40,8 +40,8 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape, b
     check(options.feature_angle >= 0 && options.feature_angle <= 180,
           fmt::format("--feature-angle {}: has to be between 0 and 180 degrees",
                       options.feature_angle));
-    check(options.relax_rounds >= 0,
-          fmt::format("--relax {}: has to be at least 0", options.relax_rounds));
+    check(options.relax_rounds >= 0 && options.relax_rounds <= 10'000,
+          fmt::format("--relax {}: has to be between 0 and 10000", options.relax_rounds));
     if (options.reference == Options::rest_shape) {
         check(has_rest_shape, "--reference rest: the input has no rest shape; name a frame");
     } else {

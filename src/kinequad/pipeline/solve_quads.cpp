@@ -190,7 +190,7 @@ RelaxOptions relax_options(const Options& run, int vertex_count) {
     options.settling_frames = std::min(most_frames, most_positions / std::max(1, vertex_count));
     const bool is_mirrored = run.symmetry == SymmetryMode::exact;
     options.rounds = run.relax_rounds * (is_mirrored ? 9 : 8) / 4;
-    options.settling_rounds = is_mirrored ? 16 : 12;
+    options.settling_rounds = run.relax_rounds * (is_mirrored ? 4 : 3) / 2;
     options.gap_limit = is_mirrored ? 0.46 : 0.43;
     return options;
 }

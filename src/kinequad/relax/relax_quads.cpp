@@ -17,6 +17,10 @@ namespace {
 constexpr double safe_jacobian = 0.15;
 constexpr double least_jacobian = 0.05;
 constexpr int releasing_pass = 8;
+/// Share of the time that passes before the surface is fitted take, about, and that before quads
+/// settle.
+constexpr double slide_share = 0.4;
+constexpr double fitted_share = 0.5;
 constexpr int most_unfolding_passes = 16;
 constexpr int most_fitting_rounds = 10;
 constexpr int most_rounds_in_vain = 4;
@@ -187,7 +191,8 @@ SlidingQuads::State slide(SlidingQuads& sliding, double limit, int rounds, const
     const int angle_rounds = rounds + rounds / 2;
     SlidingQuads::State early = sliding.state();
     for (int round = 0; round < rounds + angle_rounds; ++round) {
-        context.report_progress("relaxation", static_cast<double>(round) / (rounds + angle_rounds));
+        context.report_progress("relaxation",
+                                slide_share * round / static_cast<double>(rounds + angle_rounds));
         const bool is_for_squares = round < rounds;
         sliding.relax_pass(
             is_for_squares ? SlidingQuads::Aim::squares : SlidingQuads::Aim::right_angles, limit,
@@ -237,12 +242,14 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
     const double limit = options.distance_limit * sliding->mean_edge_length();
     const SlidingQuads::State early = slide(*sliding, limit, options.rounds, context);
     fit_surface(*sliding, limit, context);
+    context.report_progress("relaxation", fitted_share);
     const auto bring_together = [&](int rounds) {
         start_again(*sliding, early, settle(*sliding, limit, rounds, options, context), options,
                     context);
     };
     bring_together(options.rounds);
     if (has_more_frames(views, options)) {
+        context.report_progress("relaxation", (1 + fitted_share) / 2);
         // The few frames are let go before the many come.
         const QuadMesh settled = sliding->quads();
         sliding.reset();

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kinequad/core/error.h"
 #include "kinequad/core/index.h"
@@ -98,22 +100,21 @@ public:
     /// n: signed heights over the plane in shares of `diagonal`; of a pose that is mirrored part by
     /// part, over the middle between each point and its image.
     Eigen::VectorXd heights(double diagonal) const {
+        const double least = 1e-3 * diagonal;
+        const bool is_by_parts = plane_.residual_percent > symmetric_pose_percent;
+        const std::vector<char> is_positive = positive_parts();
         Eigen::VectorXd height = (mesh_.V * plane_.normal).array() - plane_.offset;
-        if (plane_.residual_percent > symmetric_pose_percent) {
-            const std::vector<char> is_positive = positive_parts();
-            for (Eigen::Index v = 0; v < height.size(); ++v) {
-                const int h = topology_.vertex_half_edge[at(static_cast<int>(v))];
-                if (h < 0) continue;
-                const int part = component_of(h / 3);
-                const PartMatch& match = match_[at(part)];
-                const Vector3 p = mesh_.V.row(v).transpose();
-                height[v] = (p - match.motion(p)).dot(plane_.normal) / 2;
-                if (match.partner == part) continue;
-                // No curve crosses a part whose image is another.
-                const double least = 1e-3 * diagonal;
-                const double above = std::max(least, std::abs(height[v]));
-                height[v] = is_positive[at(part)] != 0 ? above : -above;
-            }
+        for (Eigen::Index v = 0; v < height.size(); ++v) {
+            const int h = topology_.vertex_half_edge[at(static_cast<int>(v))];
+            if (h < 0) continue;
+            const int part = component_of(h / 3);
+            const PartMatch& match = match_[at(part)];
+            const Vector3 p = mesh_.V.row(v).transpose();
+            if (is_by_parts) height[v] = (p - match.motion(p)).dot(plane_.normal) / 2;
+            if (match.partner == part) continue;
+            // No curve crosses a part whose image is another.
+            const double above = std::max(least, std::abs(height[v]));
+            height[v] = is_positive[at(part)] != 0 ? above : -above;
         }
         return height / diagonal;
     }

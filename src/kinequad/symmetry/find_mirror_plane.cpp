@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kinequad/core/parallel.h"
 #include "kinequad/mesh/closest_points.h"
@@ -168,24 +169,27 @@ MirrorPlane refine_mirror_plane(const TriangleMesh& mesh, const MirrorPlane& sta
 
 std::optional<SymmetricPose> find_symmetric_pose(const FrameSource& frames,
                                                  double tolerated_percent, const Context& context) {
-    const auto try_pose = [&](int frame) -> std::optional<SymmetricPose> {
+    constexpr double hopeless = 10;
+    const double tolerated = std::max(tolerated_percent, symmetric_pose_percent);
+    std::optional<SymmetricPose> best;
+    const auto try_pose = [&](int frame) {
         context.check_cancelled();
         SymmetricPose pose;
         pose.frame = frame;
         pose.mesh = {frame < 0 ? frames.read_rest_shape() : frames.read_frame(frame),
                      frames.triangles()};
-        pose.plane = search_plane(pose.mesh, 10 * tolerated_percent, context);
-        if (pose.plane.residual_percent > tolerated_percent) return std::nullopt;
-        return pose;
+        pose.plane = search_plane(pose.mesh, hopeless * tolerated, context);
+        const double residual = pose.plane.residual_percent;
+        const double least = best ? best->plane.residual_percent : tolerated;
+        if (best ? residual < least : residual <= least) best = std::move(pose);
+        return residual <= symmetric_pose_percent;
     };
-    if (frames.has_rest_shape()) {
-        if (auto pose = try_pose(-1)) return pose;
-    }
+    if (frames.has_rest_shape() && try_pose(-1)) return best;
     const int step = std::max(1, frames.frame_count() / 8);
     for (int frame = 0; frame < frames.frame_count(); frame += step) {
-        if (auto pose = try_pose(frame)) return pose;
+        if (try_pose(frame)) break;
     }
-    return std::nullopt;
+    return best;
 }
 
 }  // namespace kinequad

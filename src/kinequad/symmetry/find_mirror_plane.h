@@ -40,8 +40,9 @@ struct SymmetricPose {
     MirrorPlane plane;
 };
 
-/// Looks for a pose whose mirror residual is at most `tolerated_percent`: the rest shape first,
-/// then about eight frames spread over the animation. Empty where there is none.
+/// Looks for a pose whose mirror residual is at most `symmetric_pose_percent`: the rest shape
+/// first, then about eight frames spread over the animation. Where there is none, the one of least
+/// residual if that is at most `tolerated_percent`, else empty.
 std::optional<SymmetricPose> find_symmetric_pose(const FrameSource& frames,
                                                  double tolerated_percent, const Context& context);
 

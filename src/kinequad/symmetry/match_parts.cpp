@@ -30,7 +30,10 @@ Part make_part(const TriangleMesh& mesh, const std::vector<int>& triangles) {
     constexpr std::size_t most_triangles = 1000;
     Part part;
     part.F.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-    const std::size_t step = std::max<std::size_t>(1, triangles.size() / most_triangles);
+    const std::size_t step = (triangles.size() + most_triangles - 1) / most_triangles;
+    // Moments are taken around a corner of the part, so that its place in space does not count.
+    const Vector3 origin = mesh.V.row(mesh.F(triangles.front(), 0)).transpose();
+    Vector3 sum = Vector3::Zero();
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         part.F.row(static_cast<Eigen::Index>(i)) = mesh.F.row(triangles[i]);
@@ -40,15 +43,21 @@ Part make_part(const TriangleMesh& mesh, const std::vector<int>& triangles) {
         const Vector3 centre = (corner(0) + corner(1) + corner(2)) / 3;
         const double area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2;
         part.area += area;
-        part.middle += area * centre;
-        moment += area * centre * centre.transpose();
+        sum += area * (centre - origin);
+        moment += area * (centre - origin) * (centre - origin).transpose();
         if (i % step != 0) continue;
         part.point.push_back(centre);
         for (int k = 0; k < 3; ++k) part.point.push_back(corner(k));
     }
-    if (!(part.area > 0)) return part;
-    part.middle /= part.area;
-    moment = moment / part.area - part.middle * part.middle.transpose();
+    if (!(part.area > 0)) {
+        for (const Vector3& p : part.point) {
+            part.middle += p / static_cast<double>(part.point.size());
+        }
+        return part;
+    }
+    const Vector3 offset = sum / part.area;
+    part.middle = origin + offset;
+    moment = moment / part.area - offset * offset.transpose();
     part.axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moment).eigenvectors();
     if (part.axes.determinant() < 0) part.axes.col(0) *= -1;
     return part;
@@ -98,7 +107,8 @@ double mean_square_distance(const Part& part, const ClosestPoints& target,
 }
 
 /// Iterated closest points from `start`.
-Fit lay_onto(const Part& part, const ClosestPoints& target, const MirrorMotion& start) {
+Fit lay_onto(const Part& part, const ClosestPoints& target, const MirrorMotion& start,
+             const Context& context) {
     constexpr int most_rounds = 60;
     constexpr double least_gain = 1e-4;
     Fit best;
@@ -106,6 +116,7 @@ Fit lay_onto(const Part& part, const ClosestPoints& target, const MirrorMotion& 
     std::vector<int> hints(part.point.size(), -1);
     std::vector<Vector3> goal(part.point.size());
     for (int round = 0; round < most_rounds; ++round) {
+        context.check_cancelled();
         double sum = 0;
         for (std::size_t i = 0; i < goal.size(); ++i) {
             const ClosestPoint found = target.find(motion(part.point[i]), hints[i]);
@@ -122,18 +133,35 @@ Fit lay_onto(const Part& part, const ClosestPoints& target, const MirrorMotion& 
     return best;
 }
 
-/// The part's own plane, near `plane`: the mirrored points of the part move to the closest ones of
-/// the part, and the plane follows.
+/// Whether a part has points on both sides of a plane.
+bool lies_across(const Part& part, const MirrorPlane& plane) {
+    const auto is_above = [&](const Vector3& p) { return p.dot(plane.normal) > plane.offset; };
+    return std::any_of(part.point.begin(), part.point.end(), is_above) &&
+           !std::all_of(part.point.begin(), part.point.end(), is_above);
+}
+
+/// The reflection of a part in its own plane, near `plane` where it lies across that, else beside
+/// it through the middle of the part.
 Fit lay_onto_itself(const Part& part, const TriangleMesh& mesh, const MirrorPlane& plane,
                     const Context& context) {
-    const MirrorMotion motion =
-        reflection_in(refine_mirror_plane({mesh.V, part.F}, plane, context));
+    constexpr double least_cosine = 0.7;
+    MirrorPlane start = plane;
+    if (!lies_across(part, plane)) start.offset = start.normal.dot(part.middle);
+    const MirrorPlane own = refine_mirror_plane({mesh.V, part.F}, start, context);
+    // Points that all have the same closest one say nothing about a plane.
+    const bool is_near = std::abs(own.normal.dot(plane.normal)) >= least_cosine;
+    const MirrorMotion motion = reflection_in(is_near ? own : start);
     return {mean_square_distance(part, ClosestPoints(mesh.V, part.F), motion), motion};
 }
 
-/// The motion that lays a part onto its partner: of the best of several starts.
+/// The motion that lays a part onto its partner: of the best of several starts, the plane's own
+/// motion first.
 Fit lay_onto_partner(const Part& part, const Part& partner, const TriangleMesh& mesh,
-                     const MirrorMotion& mirror) {
+                     const MirrorMotion& mirror, double diagonal, const Context& context) {
+    // Where a part is symmetric in itself several motions are as good, and the one that turns it
+    // least is meant: another has to be better by more than rounding, and by far.
+    constexpr double much_better = 0.25;
+    const double rounding = 1e-10 * diagonal * diagonal;
     const ClosestPoints target(mesh.V, partner.F);
     const ClosestPoints origin(mesh.V, part.F);
     std::vector<MirrorMotion> starts = {mirror, middle_on_middle(mirror.linear, part, partner)};
@@ -147,18 +175,18 @@ Fit lay_onto_partner(const Part& part, const Part& partner, const TriangleMesh& 
     }
     Fit best;
     for (const MirrorMotion& start : starts) {
-        const Fit there = lay_onto(part, target, start);
+        const Fit there = lay_onto(part, target, start, context);
         // A part that lies on a piece of its partner does not cover it.
         const double back = mean_square_distance(partner, origin, there.motion.inverse());
         const double both = std::max(there.mean_square, back);
-        if (both < best.mean_square) best = {both, there.motion};
+        if (both + rounding < much_better * best.mean_square) best = {both, there.motion};
     }
     return best;
 }
 
 /// For every part the one that most of its triangle centres fall on.
 std::vector<int> vote(const TriangleMesh& mesh, const std::vector<std::vector<int>>& parts,
-                      const MirrorPlane& plane) {
+                      const MirrorPlane& plane, const Context& context) {
     if (parts.size() == 1) return {0};
     std::vector<int> part_of(at(static_cast<int>(mesh.F.rows())));
     for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -167,6 +195,7 @@ std::vector<int> vote(const TriangleMesh& mesh, const std::vector<std::vector<in
     const ClosestPoints all(mesh.V, mesh.F);
     std::vector<int> chosen;
     for (const std::vector<int>& triangles : parts) {
+        context.check_cancelled();
         std::vector<int> votes(parts.size(), 0);
         int hint = -1;
         const std::size_t step = std::max<std::size_t>(1, triangles.size() / 500);
@@ -185,7 +214,8 @@ std::vector<int> vote(const TriangleMesh& mesh, const std::vector<std::vector<in
 }
 
 /// Keeps choices that are mutual; the other parts are paired, the closest first, where the middle
-/// of one mirrors near that of the other and their areas are about the same.
+/// of one mirrors near that of the other and their areas are about the same. What is left stays by
+/// itself, and so does what lies across the plane if its middle is closer to its own image.
 std::vector<int> make_mutual(const std::vector<int>& chosen, const std::vector<Part>& parts,
                              const MirrorPlane& plane) {
     constexpr double most_difference = 0.3;
@@ -200,6 +230,7 @@ std::vector<int> make_mutual(const std::vector<int>& chosen, const std::vector<P
             if (partner[at(p)] >= 0 || partner[at(q)] >= 0) continue;
             const Part& one = parts[at(p)];
             const Part& other = parts[at(q)];
+            if (p == q && !lies_across(one, plane)) continue;
             if (std::abs(one.area - other.area) > most_difference * std::max(one.area, other.area))
                 continue;
             candidates.emplace_back((plane.reflect(one.middle) - other.middle).norm(), p, q);
@@ -210,6 +241,9 @@ std::vector<int> make_mutual(const std::vector<int>& chosen, const std::vector<P
         if (partner[at(p)] >= 0 || partner[at(q)] >= 0) continue;
         partner[at(p)] = q;
         partner[at(q)] = p;
+    }
+    for (int p = 0; p < count; ++p) {
+        if (partner[at(p)] < 0) partner[at(p)] = p;
     }
     return partner;
 }
@@ -226,7 +260,7 @@ std::vector<PartMatch> match_parts(const TriangleMesh& mesh,
                                    const MirrorPlane& plane, const Context& context) {
     const MirrorMotion mirror = reflection_in(plane);
     const double diagonal = bounding_box_diagonal(mesh.V);
-    std::vector<int> partner = vote(mesh, parts, plane);
+    std::vector<int> partner = vote(mesh, parts, plane, context);
     std::vector<PartMatch> matches;
     matches.reserve(parts.size());
     for (const int p : partner) matches.push_back({p, mirror});
@@ -244,8 +278,9 @@ std::vector<PartMatch> match_parts(const TriangleMesh& mesh,
             matches[p].motion = matches[q].motion.inverse();
             continue;
         }
-        const Fit fit = q == p ? lay_onto_itself(alone[p], mesh, plane, context)
-                               : lay_onto_partner(alone[p], alone[q], mesh, mirror);
+        const Fit fit = q == p
+                            ? lay_onto_itself(alone[p], mesh, plane, context)
+                            : lay_onto_partner(alone[p], alone[q], mesh, mirror, diagonal, context);
         matches[p].motion = fit.motion;
         context.write_log(
             LogLevel::debug,

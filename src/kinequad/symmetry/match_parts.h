@@ -34,9 +34,9 @@ struct PartMatch {
 /// that most triangle centres fall on, and the plane the motion. A pose that is farther from
 /// symmetric is mirrored part by part, as figures that are put together of rigid pieces are: parts
 /// that choose each other are partners, the others those whose middles mirror most closely, of
-/// about the same area; each pair is laid onto one another, and a part that is its own partner onto
-/// itself, by iterated closest points [Besl and McKay 1992]. Then partners are mutual, and their
-/// motions inverse. docs/symmetry.md
+/// about the same area, or none; each pair is laid onto one another, and a part that is its own
+/// partner onto itself, by iterated closest points [Besl and McKay 1992]. Then partners are mutual,
+/// and their motions inverse. docs/symmetry.md
 std::vector<PartMatch> match_parts(const TriangleMesh& mesh,
                                    const std::vector<std::vector<int>>& parts,
                                    const MirrorPlane& plane, const Context& context);

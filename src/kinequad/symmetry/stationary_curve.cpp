@@ -220,10 +220,18 @@ StationaryCurve trace_stationary_curve(const Topology& topology, const Intrinsic
                                        double shortest_share) {
     StationaryCurve curve;
     std::vector<Chain> chains = Tracer(topology, metric, height).trace_all();
-    double longest = 0;
-    for (const Chain& chain : chains) longest = std::max(longest, chain.length);
+    const std::vector<int> part = triangle_components(topology);
+    const auto part_of = [&](const Chain& chain) {
+        return at(part[at(chain.crossings.front().enter / 3)]);
+    };
+    std::vector<double> longest(part.size(), 0);
+    for (const Chain& chain : chains) {
+        double& of_part = longest[part_of(chain)];
+        of_part = std::max(of_part, chain.length);
+    }
     const std::size_t before = chains.size();
-    std::erase_if(chains, [&](const Chain& c) { return c.length < shortest_share * longest; });
+    std::erase_if(chains,
+                  [&](const Chain& c) { return c.length < shortest_share * longest[part_of(c)]; });
     curve.dropped_loops = static_cast<int>(before - chains.size());
     curve.height = mend_signs(topology, height, chains);
     const Tracer tracer(topology, metric, curve.height);

@@ -14,9 +14,9 @@ struct StationaryCurve {
 };
 
 /// Traces the zero set of `height` (n, per vertex), linear along edges, with the positive side on
-/// its left. Loops shorter than `shortest_share` of the longest are noise: they are dropped, and
-/// the heights inside take the sign around them. Triangles from `triangle_count` on fill holes: the
-/// polylines leave them out.
+/// its left. Loops shorter than `shortest_share` of the longest of their connected part are noise:
+/// they are dropped, and the heights inside take the sign around them. Triangles from
+/// `triangle_count` on fill holes: the polylines leave them out.
 StationaryCurve trace_stationary_curve(const Topology& topology, const IntrinsicMetric& metric,
                                        const Eigen::VectorXd& height, int triangle_count,
                                        double shortest_share);

@@ -62,7 +62,9 @@ public:
     /// triangle probably near the image, or -1.
     SurfacePoint image(const Vector3& point, const Vector3& normal, int component, int hint) const {
         const PartMatch& match = match_[at(component)];
-        const Vector3 goal = match.motion(point);
+        // The plane by itself mirrors with less rounding than its matrix: vertices of a pose that
+        // is symmetric to the last bit fall on vertices.
+        const Vector3 goal = is_by_parts() ? match.motion(point) : plane_.reflect(point);
         const Component& partner = components_[at(match.partner)];
         const int local_hint = hint < 0 ? -1 : local_[at(hint)];
         const SurfacePoint local = partner.search.find(goal, local_hint).point;
@@ -101,7 +103,6 @@ public:
     /// part, over the middle between each point and its image.
     Eigen::VectorXd heights(double diagonal) const {
         const double least = 1e-3 * diagonal;
-        const bool is_by_parts = plane_.residual_percent > symmetric_pose_percent;
         const std::vector<char> is_positive = positive_parts();
         Eigen::VectorXd height = (mesh_.V * plane_.normal).array() - plane_.offset;
         for (Eigen::Index v = 0; v < height.size(); ++v) {
@@ -110,7 +111,7 @@ public:
             const int part = component_of(h / 3);
             const PartMatch& match = match_[at(part)];
             const Vector3 p = mesh_.V.row(v).transpose();
-            if (is_by_parts) height[v] = (p - match.motion(p)).dot(plane_.normal) / 2;
+            if (is_by_parts()) height[v] = (p - match.motion(p)).dot(plane_.normal) / 2;
             if (match.partner == part) continue;
             // No curve crosses a part whose image is another.
             const double above = std::max(least, std::abs(height[v]));
@@ -120,6 +121,8 @@ public:
     }
 
 private:
+    bool is_by_parts() const { return plane_.residual_percent > symmetric_pose_percent; }
+
     /// Of two partners the one that is farther on the positive side of the plane.
     std::vector<char> positive_parts() const {
         std::vector<double> height(components_.size(), 0);

@@ -14,10 +14,10 @@ struct RelaxOptions {
     /// Frames of each view whose quads are looked at, evenly chosen, the reference among them. At
     /// least 1.
     int sampled_frames = 8;
-    /// Frames of each view that gaps are looked for in once more after that, so that poses between
-    /// the sampled ones count, where there are more than those.
+    /// Frames of each view in which gaps are closed once more at the end, so that poses between the
+    /// sampled ones count; nothing happens where they are no more than those.
     int settling_frames = 0;
-    /// Passes over all vertices that follow then.
+    /// Passes over all vertices between these last gaps.
     int settling_rounds = 8;
     /// The reference is this frame, which is not looked at twice; empty where it is no frame.
     std::optional<int> reference_frame = 0;

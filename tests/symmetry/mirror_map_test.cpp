@@ -69,6 +69,22 @@ TEST(MirrorMap, IsTheMirrorOfACreature) {
     EXPECT_LT(report.involution_mean_percent, 0.02);
 }
 
+TEST(MirrorMap, OfASymmetricMeshGivesVerticesWhateverTheRounding) {
+    const test::SymmetricShape shape = test::bumpy_ellipsoid(4);
+    const auto images = [&](const Positions& V, const MirrorPlane& plane) {
+        const TriangleMesh mesh{V, shape.mesh.F};
+        return compute_mirror_map(mesh, plane, test::metric_of(mesh), {}).vertex_image;
+    };
+    const std::vector<SurfacePoint> exact = images(shape.mesh.V, {Vector3::UnitX(), 0, 0});
+    const Vector3 normal = turn.col(0);
+    const std::vector<SurfacePoint> rounded =
+        images(moved(shape.mesh.V), {normal, normal.dot(Vector3(3, -7, 2)), 0});
+    for (std::size_t v = 0; v < exact.size(); ++v) {
+        EXPECT_EQ(exact[v].barycentric.maxCoeff(), 1);
+        EXPECT_EQ(rounded[v], exact[v]);
+    }
+}
+
 TEST(MirrorMap, TakesSurfacesWithHandles) {
     const TriangleMesh mesh = test::torus(40, 20);
     const SymmetryMap map =

@@ -62,13 +62,12 @@ public:
     /// triangle probably near the image, or -1.
     SurfacePoint image(const Vector3& point, const Vector3& normal, int component, int hint) const {
         const PartMatch& match = match_[at(component)];
-        // The plane by itself mirrors with less rounding than its matrix: vertices of a pose that
-        // is symmetric to the last bit fall on vertices.
-        const Vector3 goal = is_by_parts() ? match.motion(point) : plane_.reflect(point);
+        const Vector3 goal = match.motion(point);
         const Component& partner = components_[at(match.partner)];
         const int local_hint = hint < 0 ? -1 : local_[at(hint)];
         const SurfacePoint local = partner.search.find(goal, local_hint).point;
-        SurfacePoint nearest{partner.triangle[at(local.triangle)], local.barycentric};
+        const SurfacePoint nearest =
+            snapped({partner.triangle[at(local.triangle)], local.barycentric});
         const Vector3 facing = match.motion.linear * normal;
         if (normals_.row(nearest.triangle).dot(facing) >= 0) return nearest;
         // Where parts touch, the nearest point can be that of the other part: the nearest that
@@ -85,6 +84,21 @@ public:
             }
         }
         return result;
+    }
+
+    /// A point that is a vertex but for rounding as a point of the first triangle there: which of
+    /// several triangles holds it must not be a matter of rounding.
+    SurfacePoint snapped(const SurfacePoint& point) const {
+        constexpr double rounding = 1e-9;
+        for (int k = 0; k < 3; ++k) {
+            if (point.barycentric[k] < 1 - rounding) continue;
+            int first = 3 * point.triangle + k;
+            for (const int h : outgoing_half_edges(topology_, topology_.origin[at(first)])) {
+                first = std::min(first, h);
+            }
+            return {first / 3, Vector3::Unit(first % 3)};
+        }
+        return point;
     }
 
     Vector3 corner(Eigen::Index t, int k) const { return mesh_.V.row(mesh_.F(t, k)).transpose(); }

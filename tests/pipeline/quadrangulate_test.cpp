@@ -130,22 +130,13 @@ TEST(Quadrangulate, FeaturesCanBeNamed) {
     EXPECT_THROW(quads_of_cube(options), InputError);
 }
 
-TEST(Quadrangulate, ASingleTriangleIsRefusedWithSymmetry) {
+TEST(Quadrangulate, ASingleTriangleIsEnough) {
     Triangles F(1, 3);
     F << 0, 1, 2;
     Positions V(3, 3);
     V << -1, 0, 0, 1, 0, 0, 0, 1.5, 0;
-    Options options = test::options_with(100);
-    options.symmetry = SymmetryMode::field;
-    try {
-        quadrangulate(MemorySequence(F, {V}), {}, options, Context{});
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_EQ(error.code(), ExitCode::no_symmetry);
-        EXPECT_NE(std::string(error.what()).find("has 1 triangle, too few"), std::string::npos);
-    }
-    options.symmetry = SymmetryMode::none;
-    EXPECT_GT(quadrangulate(MemorySequence(F, {V}), {}, options, Context{}).quads.Q.rows(), 50);
+    const MemorySequence source(F, {V});
+    EXPECT_GT(quadrangulate(source, {}, test::options_with(100), Context{}).quads.Q.rows(), 50);
 }
 
 }  // namespace

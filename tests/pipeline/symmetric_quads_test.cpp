@@ -7,6 +7,8 @@
 #include "kinequad/extract/verify_quad_mesh.h"
 #include "kinequad/io/memory_sequence.h"
 #include "kinequad/io/open_sequence.h"
+#include "kinequad/measure/quad_shape.h"
+#include "kinequad/pipeline/make_report.h"
 #include "kinequad/pipeline/quadrangulate.h"
 #include "kinequad/transfer/transfer.h"
 #include "support/data.h"
@@ -35,6 +37,15 @@ MemorySequence stretching(const TriangleMesh& mesh) {
         frames.push_back(V);
     }
     return {mesh.F, frames};
+}
+
+/// What the report of a run says about its symmetry, in degrees.
+double symmetry_error_in_report(const Result& result, const FrameSource& source) {
+    PictureOptions pictures;
+    pictures.pixels = 4000;
+    const Report report =
+        make_run_report(result, source, "", SequenceMetrics{}, pictures, Context{});
+    return report.comparison.methods.at(0).symmetry_error_degrees;
 }
 
 Options options_for(SymmetryMode mode) {
@@ -120,6 +131,36 @@ TEST_F(SymmetricQuads, WithoutLandmarksASymmetricPoseIsEnough) {
     const Result result = quadrangulate(source_, {}, options_for(SymmetryMode::exact), Context{});
     EXPECT_EQ(result.symmetry->map.method, "mirror plane");
     EXPECT_TRUE(verify_mirror(result.quads).valid());
+}
+
+TEST_F(SymmetricQuads, OfACoarseMeshAreAsGoodAsThoseOfAFineOne) {
+    // 80 triangles for 700 quads.
+    const test::SymmetricShape coarse = test::bumpy_ellipsoid(1);
+    const MemorySequence source = stretching(coarse.mesh);
+    for (const SymmetryMode mode : {SymmetryMode::field, SymmetryMode::exact}) {
+        const Result result = quadrangulate(source, {}, options_for(mode), Context{});
+        ASSERT_TRUE(result.refined);
+        EXPECT_TRUE(verify_quad_mesh(result.quads, result.topology).valid());
+        EXPECT_LT(symmetry_error_in_report(result, source), 5);
+        const Positions X = quad_positions(result.quads, coarse.mesh.V, coarse.mesh.F);
+        EXPECT_LT(measure_shape(X, result.quads.Q).angle_deviation_mean, 5);
+    }
+}
+
+TEST_F(SymmetricQuads, AreRefusedWhereAPartIsTooSmall) {
+    TriangleMesh mesh = shape_.mesh;
+    const auto n = static_cast<int>(mesh.V.rows());
+    mesh.V.conservativeResize(n + 3, 3);
+    mesh.V.bottomRows(3) << -0.1, 0, 3, 0.1, 0, 3, 0, 0.1, 3;
+    mesh.F.conservativeResize(mesh.F.rows() + 1, 3);
+    mesh.F.bottomRows(1) << n, n + 1, n + 2;
+    try {
+        quadrangulate(stretching(mesh), {}, options_for(SymmetryMode::field), Context{});
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.code(), ExitCode::no_symmetry);
+        EXPECT_NE(std::string(error.what()).find("has 1 triangle, too few"), std::string::npos);
+    }
 }
 
 struct Expected {

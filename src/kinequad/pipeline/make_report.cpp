@@ -8,6 +8,7 @@
 
 #include "kinequad/deformation/compute_mean_metric.h"
 #include "kinequad/measure/symmetry_error.h"
+#include "kinequad/pipeline/refine_coarse_input.h"
 #include "kinequad/pipeline/run_record.h"
 #include "kinequad/pipeline/version.h"
 
@@ -105,11 +106,13 @@ ReportTable wall_and_cpu_times(const std::vector<StageTime>& times) {
 /// Error of the quads against the symmetry that the run made use of.
 double symmetry_error_of(const Result& result, const QuadSequence& quads, const FrameSource& source,
                          const Context& context) {
-    const IntrinsicMetric metric = result.options.metric == MetricChoice::reference
-                                       ? metric_of(result.topology, result.reference)
-                                       : compute_mean_metric(source, result.topology, context);
-    const StretchReference reference{result.reference, source.triangles(),
-                                     triangle_sides(result.topology, metric),
+    const SolvedInput input(source, result.topology, result.reference, result.refined);
+    const IntrinsicMetric metric =
+        result.options.metric == MetricChoice::reference
+            ? metric_of(input.topology(), input.reference())
+            : compute_mean_metric(input.frames(), input.topology(), context);
+    const StretchReference reference{input.reference(), input.frames().triangles(),
+                                     triangle_sides(input.topology(), metric),
                                      quads.read_frame(0, result.reference), quads.faces};
     return measure_symmetry_error(reference, result.symmetry->map, context);
 }

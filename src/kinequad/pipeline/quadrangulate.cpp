@@ -18,7 +18,6 @@
 #include "kinequad/pipeline/refine_coarse_input.h"
 #include "kinequad/pipeline/solve_quads.h"
 #include "kinequad/pipeline/symmetric_quads.h"
-#include "kinequad/transfer/carried_sequence.h"
 
 namespace kinequad {
 namespace {
@@ -100,6 +99,13 @@ void require_symmetric_detail(const FrameSource& source, const Topology& topolog
     }
 }
 
+/// Whether the surface may be refined before it is solved on. Landmarks match parts that were
+/// modelled apart along their seams, which would not fit any more where both sides are cut.
+bool can_be_refined(const Result& result, const std::optional<Landmarks>& landmarks) {
+    return result.options.symmetry == SymmetryMode::none || !landmarks ||
+           count_surface(result.topology).components == 1;
+}
+
 /// Says where the wanted number of vertices was missed, and why.
 void note_density(Result& result, const Context& context) {
     constexpr double allowed = 0.1;
@@ -148,20 +154,17 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     require_valid_input(source, result.reference, context);
     result.topology = build_topology(source.triangles(), source.vertex_count());
     result.features = find_features(result.topology, result.reference, result.options);
-    // A symmetry map is made of the input as it is: seams would not fit where both sides are cut.
-    if (result.options.symmetry == SymmetryMode::none) {
+    if (can_be_refined(result, landmarks)) {
         result.refined = refine_coarse_input(result.topology, result.reference, result.features,
                                              result.options, context);
     }
     finish_stage("check");
 
     // From here on the surface is the refined one, up to the finished quads.
-    std::optional<CarriedSequence> finer;
-    if (result.refined) finer.emplace(source, result.refined->F, vertex_points(*result.refined));
-    const FrameSource& surface = finer ? static_cast<const FrameSource&>(*finer) : source;
-    const Positions reference = finer ? finer->carry(result.reference) : result.reference;
-    const Topology topology =
-        finer ? build_topology(surface.triangles(), surface.vertex_count()) : result.topology;
+    const SolvedInput input(source, result.topology, result.reference, result.refined);
+    const FrameSource& surface = input.frames();
+    const Positions& reference = input.reference();
+    const Topology& topology = input.topology();
 
     // A run on a single pose sees the reference as if it were the whole sequence.
     std::optional<MemorySequence> pose;

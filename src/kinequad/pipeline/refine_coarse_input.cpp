@@ -10,6 +10,9 @@ namespace {
 
 /// Length of the longest edge that is left, in quad edges.
 constexpr double longest_edge = 2;
+/// What refinement has to multiply the triangles of a symmetric run by: a symmetry map is best made
+/// of the triangles that were given.
+constexpr int least_growth = 2;
 
 }  // namespace
 
@@ -25,12 +28,28 @@ std::optional<RefinedMesh> refine_coarse_input(const Topology& topology, const P
     refine_options.longest_edge = longest_edge * quad_edge;
     refine_options.lines = features;
     RefinedMesh refined = refine_long_edges(topology, metric, refine_options, context);
-    if (refined.F.rows() == topology.triangle_count) return std::nullopt;
+    const bool is_symmetric = options.symmetry != SymmetryMode::none;
+    const int least_triangles =
+        is_symmetric ? least_growth * topology.triangle_count : topology.triangle_count + 1;
+    if (refined.F.rows() < least_triangles) return std::nullopt;
     context.write_log(LogLevel::info,
                       fmt::format("check: the mesh is coarse against the quads; refined from {} to "
                                   "{} triangles",
                                   topology.triangle_count, refined.F.rows()));
     return refined;
+}
+
+SolvedInput::SolvedInput(const FrameSource& source, const Topology& topology,
+                         const Positions& reference, const std::optional<RefinedMesh>& refined)
+    : source_(source) {
+    if (!refined) {
+        topology_ = topology;
+        reference_ = reference;
+        return;
+    }
+    finer_.emplace(source, refined->F, vertex_points(*refined));
+    topology_ = build_topology(finer_->triangles(), finer_->vertex_count());
+    reference_ = finer_->carry(reference);
 }
 
 }  // namespace kinequad

@@ -205,13 +205,16 @@ IntrinsicMetric choose_metric(const FrameSource& frames, const Topology& topolog
                                               : compute_mean_metric(frames, topology, context));
 }
 
+std::vector<int> feature_edges_of(const RefinedMesh& mesh, const Topology& topology,
+                                  const Result& run) {
+    return edges_along(topology, run.refined ? as_refinement_of_input(*run.refined, mesh) : mesh,
+                       run.topology, run.features);
+}
+
 void measure_deformation(const std::vector<DomainView>& views, Result& result,
                          const Context& context, const StageEnd& finish_stage) {
-    const RefinedMesh& surface = result.domain.surface.mesh;
     result.domain.feature_edges =
-        edges_along(result.domain.topology,
-                    result.refined ? as_refinement_of_input(*result.refined, surface) : surface,
-                    result.topology, result.features);
+        feature_edges_of(result.domain.surface.mesh, result.domain.topology, result);
     result.tensors = sum_of_tensors(views, result, context);
     finish_stage("deformation");
 }

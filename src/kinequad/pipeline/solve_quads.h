@@ -30,6 +30,11 @@ struct DomainView {
 /// Called after each stage with its name.
 using StageEnd = std::function<void(const char* stage)>;
 
+/// The edges of `mesh`, with triangles `topology`, along the features of the input; `mesh` is over
+/// the surface that `run` is solved on, which may itself be refined.
+std::vector<int> feature_edges_of(const RefinedMesh& mesh, const Topology& topology,
+                                  const Result& run);
+
 /// Measures the deformation of the views of `result.domain`. Fills in `tensors` and the domain's
 /// features. Throws as `quadrangulate`.
 void measure_deformation(const std::vector<DomainView>& views, Result& result,

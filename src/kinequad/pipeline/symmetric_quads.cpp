@@ -12,7 +12,6 @@
 #include "kinequad/core/index.h"
 #include "kinequad/extract/mirrored_quads.h"
 #include "kinequad/field/refine_cross_field.h"
-#include "kinequad/mesh/feature_edges.h"
 #include "kinequad/mesh/split_along_level.h"
 #include "kinequad/pipeline/best_recipe.h"
 #include "kinequad/pipeline/solve_quads.h"
@@ -104,6 +103,7 @@ Result measure_whole(const SolvedSurface& surface, const Result& run, const Cont
     whole.edge_length = run.edge_length;
     whole.topology = run.topology;
     whole.features = run.features;
+    whole.refined = run.refined;
     whole.domain.surface.mesh =
         as_refined_mesh(surface.frames.triangles(), surface.frames.vertex_count());
     whole.domain.topology = surface.topology;
@@ -140,8 +140,7 @@ public:
         domain_.surface.is_on_curve = split.is_on_level;
         domain_.topology = build_topology(split.mesh.F, split.mesh.vertex_count);
         domain_.metric = choose_metric(frames_, domain_.topology, reference_, run.options, context);
-        domain_.feature_edges =
-            edges_along(domain_.topology, split.mesh, run.topology, run.features);
+        domain_.feature_edges = feature_edges_of(split.mesh, domain_.topology, run);
     }
 
     const Domain& domain() const { return domain_; }

@@ -106,6 +106,23 @@ bool can_be_refined(const Result& result, const std::optional<Landmarks>& landma
            count_surface(result.topology).components == 1;
 }
 
+/// Quads with the symmetry that the run asks for; where no mirrored ones are found, says what may
+/// be instead.
+QuadMesh solve_symmetric(const SolvedSurface& solved, Result& result, const Context& context,
+                         const StageEnd& finish_stage) {
+    if (result.options.symmetry == SymmetryMode::field) {
+        return solve_symmetric_field(solved, result, context, finish_stage);
+    }
+    try {
+        return solve_mirrored_half(solved, result, context, finish_stage);
+    } catch (const GridMapError& error) {
+        throw GridMapError(
+            fmt::format("{}, or let go of quads that mirror exactly with --symmetry "
+                        "field",
+                        error.what()));
+    }
+}
+
 /// Says where the wanted number of vertices was missed, and why.
 void note_density(Result& result, const Context& context) {
     constexpr double allowed = 0.1;
@@ -203,9 +220,7 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     } else {
         require_symmetric_detail(source, topology);
         result.symmetry = find_symmetry(frames, metric, landmarks, reference, context);
-        result.quads = result.options.symmetry == SymmetryMode::field
-                           ? solve_symmetric_field(solved, result, context, finish_stage)
-                           : solve_mirrored_half(solved, result, context, finish_stage);
+        result.quads = solve_symmetric(solved, result, context, finish_stage);
     }
     put_on_input(result);
     note_density(result, context);

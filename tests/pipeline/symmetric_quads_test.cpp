@@ -168,6 +168,21 @@ struct Expected {
     int singular;
 };
 
+TEST(SymmetricQuadsOfRealParts, SlowCoverARoosterOfFortyOneParts) {
+    KINEQUAD_REQUIRE_DATA();
+    const auto frames = open_sequence((test::data_folder() / "sequences" / "chicken.obj").string());
+    Options options;
+    options.symmetry = SymmetryMode::field;
+    options.symmetrisation = Symmetrisation::orbits;
+    options.alpha = 0.5;
+    options.relax_rounds = 0;
+    const Result result = quadrangulate(*frames, {}, options, Context{});
+    const QuadMeshReport report = verify_quad_mesh(result.quads, result.topology);
+    EXPECT_TRUE(report.valid());
+    EXPECT_EQ(count_surface(result.topology).components, 41);
+    EXPECT_NEAR(report.vertices, 5200, 260);
+}
+
 class RealMirror : public testing::TestWithParam<Expected> {};
 
 TEST_P(RealMirror, SlowMirrorsCapturedCharacters) {

@@ -50,7 +50,13 @@ private:
 /// No valid grid map was found for a valid surface.
 class GridMapError : public Error {
 public:
-    explicit GridMapError(const std::string& message) : Error(ExitCode::no_grid_map, message) {}
+    explicit GridMapError(const std::string& message, bool depends_on_density = true)
+        : Error(ExitCode::no_grid_map, message), depends_on_density_(depends_on_density) {}
+    /// Whether shorter edges of the quads might help.
+    bool depends_on_density() const { return depends_on_density_; }
+
+private:
+    bool depends_on_density_;
 };
 
 /// A stage's result failed its own verifier; nothing is written.

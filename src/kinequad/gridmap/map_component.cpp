@@ -372,9 +372,10 @@ GridMap map_component(ChartedMesh mesh, const WantedQuads& wanted, const Context
                         ChartedMesh::feature_line);
         return map_component(std::move(mesh), wanted, context);
     }
-    throw GridMapError(fmt::format("no valid grid map for the part with triangle {}: {}; {}",
-                                   mesh.parent.front(), obstacle,
-                                   depends_on_density ? "ask for more vertices" : remedy));
+    throw GridMapError(
+        fmt::format("no valid grid map for the part with triangle {}: {}; {}", mesh.parent.front(),
+                    obstacle, depends_on_density ? "ask for more vertices" : remedy),
+        depends_on_density);
 }
 
 }  // namespace kinequad

@@ -248,7 +248,9 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
             finish_stage("extraction");
             return quads;
         } catch (const Error& error) {
-            if (!may_be_overcome(error) || attempt == most_attempts) throw;
+            const auto* no_map = dynamic_cast<const GridMapError*>(&error);
+            const bool is_dense_enough = no_map != nullptr && !no_map->depends_on_density();
+            if (!may_be_overcome(error) || is_dense_enough || attempt == most_attempts) throw;
             options.edge_length *= shortening;
             result.notes.push_back(fmt::format("edges of {:.4g} instead of {:.4g}: {}",
                                                options.edge_length, result.edge_length,

@@ -136,7 +136,19 @@ TEST(Quadrangulate, ASingleTriangleIsEnough) {
     Positions V(3, 3);
     V << -1, 0, 0, 1, 0, 0, 0, 1.5, 0;
     const MemorySequence source(F, {V});
-    EXPECT_GT(quadrangulate(source, {}, test::options_with(100), Context{}).quads.Q.rows(), 50);
+    Options options = test::options_with(100);
+    EXPECT_GT(quadrangulate(source, {}, options, Context{}).quads.Q.rows(), 50);
+    options.symmetry = SymmetryMode::field;
+    EXPECT_GT(quadrangulate(source, {}, options, Context{}).quads.Q.rows(), 50);
+    // Its half has too sharp a corner for crosses along both sides.
+    options.symmetry = SymmetryMode::exact;
+    try {
+        quadrangulate(source, {}, options, Context{});
+        FAIL();
+    } catch (const GridMapError& error) {
+        EXPECT_FALSE(error.depends_on_density());
+        EXPECT_NE(std::string(error.what()).find("--symmetry field"), std::string::npos);
+    }
 }
 
 }  // namespace

@@ -33,6 +33,30 @@ TEST(MirrorPlane, IsFoundInAnyPosition) {
     EXPECT_LT(plane.residual_percent, 0.01);
 }
 
+TEST(MirrorPlane, OfAFlatSheetIsNotTheSheetsOwn) {
+    // A trapezoid: it mirrors in one direction, but for that across itself.
+    constexpr int n = 8;
+    TriangleMesh sheet;
+    sheet.V.resize((n + 1) * (n + 1), 3);
+    sheet.F.resize(2 * n * n, 3);
+    for (int v = 0; v < sheet.V.rows(); ++v) {
+        const double x = 2.0 * (v % (n + 1)) / n - 1;
+        const double y = static_cast<double>(v / (n + 1)) / n;
+        sheet.V.row(v) << x * (2 - y), 1.5 * y, 0;
+    }
+    for (int q = 0; q < n * n; ++q) {
+        const int v = q / n * (n + 1) + q % n;
+        sheet.F.row(2 * q) << v, v + 1, v + n + 2;
+        sheet.F.row(2 * q + 1) << v, v + n + 2, v + n + 1;
+    }
+    for (const Positions& V : {sheet.V, moved(sheet.V)}) {
+        const TriangleMesh mesh{V, sheet.F};
+        const MirrorPlane plane = find_mirror_plane(mesh, {});
+        const Vector3 across = (V.row(n) - V.row(0)).normalized().transpose();
+        EXPECT_GT(std::abs(plane.normal.dot(across)), 1 - 1e-3);
+    }
+}
+
 TEST(MirrorPlane, OfAShapeWithoutOneHasAResidual) {
     TriangleMesh mesh = test::sphere(3);
     for (Eigen::Index v = 0; v < mesh.V.rows(); ++v) {

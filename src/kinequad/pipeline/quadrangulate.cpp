@@ -117,9 +117,9 @@ QuadMesh solve_symmetric(const SolvedSurface& solved, Result& result, const Cont
         return solve_mirrored_half(solved, result, context, finish_stage);
     } catch (const GridMapError& error) {
         throw GridMapError(
-            fmt::format("{}, or let go of quads that mirror exactly with --symmetry "
-                        "field",
-                        error.what()));
+            fmt::format("{}, or let go of quads that mirror exactly with --symmetry field",
+                        error.what()),
+            error.depends_on_density());
     }
 }
 

@@ -66,13 +66,20 @@ Step improve_plane(const ClosestPoints& surface, const Samples& samples, const M
     }
     step.rms = std::sqrt(step.rms);
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (std::size_t i = 0; i < count; ++i) {
-        const Eigen::Matrix3d product = (samples.point[i] - from) * (closest[i] - to).transpose();
+        const Vector3 p = samples.point[i] - from;
+        const Eigen::Matrix3d product = p * (closest[i] - to).transpose();
         moment += samples.weight[i] * (product + product.transpose());
+        spread += samples.weight[i] * p * p.transpose();
     }
-    // |q - reflected p|^2 is least where n^T M n is.
+    // |q - reflected p|^2 is least where n^T M n is; but a flat surface does not mirror in its own
+    // plane.
+    constexpr double flat = 1e-8;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moment);
-    step.next.normal = solver.eigenvectors().col(0);
+    const Vector3 least = solver.eigenvectors().col(0);
+    const bool is_own_plane = least.dot(spread * least) < flat * spread.trace();
+    step.next.normal = is_own_plane ? Vector3(solver.eigenvectors().col(1)) : least;
     if (step.next.normal.dot(plane.normal) < 0) step.next.normal *= -1;
     step.next.offset = step.next.normal.dot(from + to) / 2;
     return step;

@@ -267,7 +267,7 @@ Attempt map_at_density(ChartedMesh mesh, const WantedQuads& wanted, const Contex
             built = build_map_variables(mesh, cut, nodes);
         } catch (const GridMapError& error) {
             // Crosses do not follow all lines on a surface that is coarse for them.
-            if (!has_lines(mesh)) throw;
+            if (!has_lines(mesh)) throw GridMapError(error.what(), false);
             attempt.obstacle = error.what();
             attempt.depends_on_density = false;
             return attempt;

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "kinequad/deformation/compute_mean_metric.h"
 #include "kinequad/measure/symmetry_error.h"
 #include "kinequad/pipeline/refine_coarse_input.h"
 #include "kinequad/pipeline/run_record.h"
+#include "kinequad/pipeline/solve_quads.h"
 #include "kinequad/pipeline/version.h"
 
 namespace kinequad {
@@ -108,9 +108,7 @@ double symmetry_error_of(const Result& result, const QuadSequence& quads, const 
                          const Context& context) {
     const SolvedInput input(source, result.topology, result.reference, result.refined);
     const IntrinsicMetric metric =
-        result.options.metric == MetricChoice::reference
-            ? metric_of(input.topology(), input.reference())
-            : compute_mean_metric(input.frames(), input.topology(), context);
+        choose_metric(input.frames(), input.topology(), input.reference(), result.options, context);
     const StretchReference reference{input.reference(), input.frames().triangles(),
                                      triangle_sides(input.topology(), metric),
                                      quads.read_frame(0, result.reference), quads.faces};

@@ -80,8 +80,8 @@ void check_areas(const FrameSource& source, const Topology& topology,
     }
 }
 
-/// A symmetry map is made of the input as it is, so it has to have triangles enough for a field of
-/// its own on every connected part.
+/// Surfaces of symmetric runs are refined only where they are coarse, and have to have triangles
+/// enough for a field of their own on every connected part.
 void require_symmetric_detail(const FrameSource& source, const Topology& topology) {
     constexpr int least_triangles = 4;
     const std::vector<int> component = triangle_components(topology);
@@ -117,7 +117,7 @@ QuadMesh solve_symmetric(const SolvedSurface& solved, Result& result, const Cont
         return solve_mirrored_half(solved, result, context, finish_stage);
     } catch (const GridMapError& error) {
         throw GridMapError(
-            fmt::format("{}, or let go of quads that mirror exactly with --symmetry field",
+            fmt::format("{}; or run with --symmetry field, whose quads need not mirror exactly",
                         error.what()),
             error.depends_on_density());
     }
@@ -171,6 +171,7 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     require_valid_input(source, result.reference, context);
     result.topology = build_topology(source.triangles(), source.vertex_count());
     result.features = find_features(result.topology, result.reference, result.options);
+    if (landmarks) require_landmarks_fit(*landmarks, source.vertex_count(), source.name());
     if (can_be_refined(result, landmarks)) {
         result.refined = refine_coarse_input(result.topology, result.reference, result.features,
                                              result.options, context);
@@ -198,7 +199,7 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
         result.options.metric = MetricChoice::reference;
         metric = choose_metric(frames, topology, reference, result.options, context);
     }
-    check_areas(source, topology, metric_of(topology, reference));
+    check_areas(source, result.topology, metric_of(result.topology, result.reference));
     result.edge_length = result.options.edge_length > 0
                              ? result.options.edge_length
                              : edge_length_for(topology, metric, result.options.vertices);

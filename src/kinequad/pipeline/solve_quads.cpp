@@ -249,8 +249,8 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
             return quads;
         } catch (const Error& error) {
             const auto* no_map = dynamic_cast<const GridMapError*>(&error);
-            const bool is_dense_enough = no_map != nullptr && !no_map->depends_on_density();
-            if (!may_be_overcome(error) || is_dense_enough || attempt == most_attempts) throw;
+            const bool no_density_helps = no_map != nullptr && !no_map->depends_on_density();
+            if (!may_be_overcome(error) || no_density_helps || attempt == most_attempts) throw;
             options.edge_length *= shortening;
             result.notes.push_back(fmt::format("edges of {:.4g} instead of {:.4g}: {}",
                                                options.edge_length, result.edge_length,

@@ -66,16 +66,15 @@ public:
         const Component& partner = components_[at(match.partner)];
         const int local_hint = hint < 0 ? -1 : local_[at(hint)];
         const SurfacePoint local = partner.search.find(goal, local_hint).point;
-        const SurfacePoint nearest =
-            snapped({partner.triangle[at(local.triangle)], local.barycentric});
+        const SurfacePoint nearest{partner.triangle[at(local.triangle)], local.barycentric};
         const Vector3 facing = match.motion.linear * normal;
-        if (normals_.row(nearest.triangle).dot(facing) >= 0) return nearest;
+        if (faces(nearest.triangle, facing)) return snapped(nearest, facing);
         // Where parts touch, the nearest point can be that of the other part: the nearest that
         // faces the same way is asked for.
         double best = std::numeric_limits<double>::infinity();
         SurfacePoint result = nearest;
         for (const int t : partner.triangle) {
-            if (normals_.row(t).dot(facing) < 0) continue;
+            if (!faces(t, facing)) continue;
             const TrianglePoint found =
                 closest_point_on_triangle(goal, corner(t, 0), corner(t, 1), corner(t, 2));
             if (found.squared_distance < best) {
@@ -83,18 +82,22 @@ public:
                 result = {t, found.barycentric};
             }
         }
-        return result;
+        return snapped(result, facing);
     }
 
-    /// A point that is a vertex but for rounding as a point of the first triangle there: which of
-    /// several triangles holds it must not be a matter of rounding.
-    SurfacePoint snapped(const SurfacePoint& point) const {
+    bool faces(int t, const Vector3& direction) const {
+        return normals_.row(t).dot(direction) >= 0;
+    }
+
+    /// A point that is a vertex but for rounding as a point of the first triangle there that faces
+    /// `facing`: which of several triangles holds it must not be a matter of rounding.
+    SurfacePoint snapped(const SurfacePoint& point, const Vector3& facing) const {
         constexpr double rounding = 1e-9;
         for (int k = 0; k < 3; ++k) {
             if (point.barycentric[k] < 1 - rounding) continue;
             int first = 3 * point.triangle + k;
             for (const int h : outgoing_half_edges(topology_, topology_.origin[at(first)])) {
-                first = std::min(first, h);
+                if (faces(h / 3, facing)) first = std::min(first, h);
             }
             return {first / 3, Vector3::Unit(first % 3)};
         }

@@ -36,14 +36,14 @@ Samples sample_surface(const TriangleMesh& mesh, int count) {
 }
 
 /// Root mean square distance of the mirrored samples, and the plane that mirrors them best onto
-/// their closest points.
+/// their closest points; unless it may be, not the plane that a flat surface lies in.
 struct Step {
     double rms = 0;
     MirrorPlane next;
 };
 
 Step improve_plane(const ClosestPoints& surface, const Samples& samples, const MirrorPlane& plane,
-                   std::vector<int>& hints, const Context& context) {
+                   bool may_be_own_plane, std::vector<int>& hints, const Context& context) {
     const std::size_t count = samples.point.size();
     hints.resize(count, -1);
     std::vector<Vector3> closest(count);
@@ -73,13 +73,13 @@ Step improve_plane(const ClosestPoints& surface, const Samples& samples, const M
         moment += samples.weight[i] * (product + product.transpose());
         spread += samples.weight[i] * p * p.transpose();
     }
-    // |q - reflected p|^2 is least where n^T M n is; but a flat surface does not mirror in its own
-    // plane.
+    // |q - reflected p|^2 is least where n^T M n is, as it is for a flat surface in its own plane.
     constexpr double flat = 1e-8;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moment);
     const Vector3 least = solver.eigenvectors().col(0);
     const bool is_own_plane = least.dot(spread * least) < flat * spread.trace();
-    step.next.normal = is_own_plane ? Vector3(solver.eigenvectors().col(1)) : least;
+    step.next.normal =
+        is_own_plane && !may_be_own_plane ? Vector3(solver.eigenvectors().col(1)) : least;
     if (step.next.normal.dot(plane.normal) < 0) step.next.normal *= -1;
     step.next.offset = step.next.normal.dot(from + to) / 2;
     return step;
@@ -111,12 +111,12 @@ std::vector<Vector3> starting_normals(const Samples& samples, const Vector3& cen
 
 /// Improves a plane until that gains nothing any more. `percent` is what a length is multiplied by.
 MirrorPlane settle_plane(const ClosestPoints& surface, const Samples& samples, MirrorPlane plane,
-                         double percent, const Context& context) {
+                         bool may_be_own_plane, double percent, const Context& context) {
     constexpr int most_rounds = 60;
     std::vector<int> hints;
     plane.residual_percent = std::numeric_limits<double>::infinity();
     for (int round = 0; round < most_rounds; ++round) {
-        Step step = improve_plane(surface, samples, plane, hints, context);
+        Step step = improve_plane(surface, samples, plane, may_be_own_plane, hints, context);
         const double residual = step.rms * percent;
         const bool is_settled = residual > 0.999 * plane.residual_percent;
         plane.residual_percent = residual;
@@ -141,7 +141,7 @@ MirrorPlane search_plane(const TriangleMesh& mesh, double hopeless_percent,
         std::vector<int> hints;
         double rms = 0;
         for (int round = 0; round < 6; ++round) {
-            const Step step = improve_plane(surface, coarse, plane, hints, context);
+            const Step step = improve_plane(surface, coarse, plane, false, hints, context);
             rms = step.rms;
             plane = step.next;
         }
@@ -154,7 +154,8 @@ MirrorPlane search_plane(const TriangleMesh& mesh, double hopeless_percent,
     if (best.residual_percent > hopeless_percent) return best;
     bool is_first = true;
     for (std::size_t i = 0; i < 3; ++i) {
-        const MirrorPlane plane = settle_plane(surface, fine, found[i].second, percent, context);
+        const MirrorPlane plane =
+            settle_plane(surface, fine, found[i].second, false, percent, context);
         if (is_first || plane.residual_percent < best.residual_percent) best = plane;
         is_first = false;
         if (best.residual_percent < 0.01) break;
@@ -170,7 +171,7 @@ MirrorPlane find_mirror_plane(const TriangleMesh& mesh, const Context& context) 
 
 MirrorPlane refine_mirror_plane(const TriangleMesh& mesh, const MirrorPlane& start,
                                 const Context& context) {
-    return settle_plane(ClosestPoints(mesh.V, mesh.F), sample_surface(mesh, 2500), start,
+    return settle_plane(ClosestPoints(mesh.V, mesh.F), sample_surface(mesh, 2500), start, true,
                         100 / bounding_box_diagonal(mesh.V), context);
 }
 

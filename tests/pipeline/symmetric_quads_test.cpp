@@ -190,11 +190,6 @@ TEST_F(SymmetricQuads, AreRefusedWhereAPartIsTooSmall) {
     }
 }
 
-struct Expected {
-    const char* name;
-    int singular;
-};
-
 TEST(SymmetricQuadsOfRealParts, SlowCoverARoosterOfFortyOneParts) {
     KINEQUAD_REQUIRE_DATA();
     const auto frames = open_sequence((test::data_folder() / "sequences" / "chicken.obj").string());
@@ -210,6 +205,11 @@ TEST(SymmetricQuadsOfRealParts, SlowCoverARoosterOfFortyOneParts) {
     EXPECT_LT(result.field_symmetry->mean_degrees, 5.5);
     EXPECT_NEAR(report.vertices, 5200, 260);
 }
+
+struct Expected {
+    const char* name;
+    int singular;
+};
 
 class RealMirror : public testing::TestWithParam<Expected> {};
 

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "kinequad/measure/symmetry_error.h"
-#include "kinequad/pipeline/refine_coarse_input.h"
 #include "kinequad/pipeline/run_record.h"
 #include "kinequad/pipeline/solve_quads.h"
+#include "kinequad/pipeline/solved_input.h"
 #include "kinequad/pipeline/version.h"
 
 namespace kinequad {

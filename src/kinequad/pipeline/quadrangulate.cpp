@@ -17,6 +17,7 @@
 #include "kinequad/pipeline/check_input.h"
 #include "kinequad/pipeline/refine_coarse_input.h"
 #include "kinequad/pipeline/solve_quads.h"
+#include "kinequad/pipeline/solved_input.h"
 #include "kinequad/pipeline/symmetric_quads.h"
 
 namespace kinequad {

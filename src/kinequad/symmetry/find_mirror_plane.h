@@ -25,8 +25,7 @@ struct MirrorPlane {
 
 /// Finds the plane in which `mesh` mirrors best, by symmetric iterated closest points from many
 /// starts [Besl and McKay 1992]; always returns one, with its residual; for a flat sheet one across
-/// it, not the one it lies in. Throws `InputError` (mesh)
-/// where there is no triangle.
+/// it, not the one it lies in. Throws `InputError` (mesh) where there is no triangle.
 MirrorPlane find_mirror_plane(const TriangleMesh& mesh, const Context& context);
 
 /// The plane near `start` in which `mesh` mirrors best, by the same from that start alone. Throws

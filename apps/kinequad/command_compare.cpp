@@ -85,7 +85,7 @@ void compare(const CompareCommand& command, Session& session) {
     options.measure = command.measure;
     if (!command.landmarks.empty()) {
         options.landmarks = read_landmarks(command.landmarks);
-        require_landmarks_fit(*options.landmarks, source->vertex_count(), command.landmarks);
+        require_landmarks_fit(*options.landmarks, source->vertex_count());
     }
     options.recipes = comparison_recipes(base, options.landmarks.has_value());
     for (const std::string& argument : command.also) {

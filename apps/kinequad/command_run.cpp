@@ -150,7 +150,7 @@ void run(const RunCommand& command, Session& session) {
     std::optional<Landmarks> landmarks;
     if (!command.landmarks.empty()) {
         landmarks = read_landmarks(command.landmarks);
-        require_landmarks_fit(*landmarks, source->vertex_count(), command.landmarks);
+        require_landmarks_fit(*landmarks, source->vertex_count());
     }
     Result result =
         quadrangulate(*source, landmarks, options_of(command, *source), context, observe);
@@ -180,6 +180,10 @@ void run(const RunCommand& command, Session& session) {
     }
     nlohmann::ordered_json record = make_run_record(result, *source, digest, metrics);
     if (repaired) record["input"]["repaired"] = repaired->actions();
+    if (landmarks) {
+        record["options"]["landmarks"] = {{"pairs", landmarks->pairs},
+                                          {"stationary", landmarks->stationary}};
+    }
     const std::string text = record.dump(2) + "\n";
     write_file_atomically(output.path("run.json"), text);
     context.check_cancelled();
@@ -192,10 +196,12 @@ void run(const RunCommand& command, Session& session) {
 
 void add_method_options(CLI::App& app, RunCommand& command) {
     Options& options = command.options;
-    CLI::Option* vertices = app.add_option("--vertices", options.vertices,
-                                           "Wanted number of quad vertices, met within 5 %")
-                                ->check(CLI::Range(8, 100'000'000))
-                                ->capture_default_str();
+    CLI::Option* vertices =
+        app.add_option("--vertices", options.vertices,
+                       "Wanted number of quad vertices, mostly met within 5 %; run.json says "
+                       "why where it is not within 10 %")
+            ->check(CLI::Range(8, 100'000'000))
+            ->capture_default_str();
     app.add_option("--edge-length", options.edge_length,
                    "Wanted edge length of the quads instead, in units of the input")
         ->check(CLI::PositiveNumber)
@@ -203,10 +209,11 @@ void add_method_options(CLI::App& app, RunCommand& command) {
     app.add_option("--landmarks", command.landmarks,
                    "JSON file with pairs of mirrored vertices and vertices on the middle line: "
                    "where left and right of the surface are");
-    app.add_option("--symmetry", command.symmetry,
-                   "How the quads are made symmetric: none; field (the cross field alone); exact "
-                   "(one half is solved and mirrored). Without landmarks a pose that a plane "
-                   "mirrors is looked for [exact with landmarks, else none]")
+    app.add_option(
+           "--symmetry", command.symmetry,
+           "How the quads are made symmetric: none; field (the cross field alone); exact "
+           "(one half is solved and mirrored). Without landmarks a pose that a plane "
+           "mirrors is looked for [exact with landmarks, or field with --field paper; else none]")
         ->check(CLI::IsMember({"none", "field", "exact"}));
     app.add_option(
            "--field", command.field,
@@ -218,7 +225,7 @@ void add_method_options(CLI::App& app, RunCommand& command) {
            "--symmetrise", command.symmetrisation,
            "How the cross field is made symmetric: term (in one solve) or orbits (solved on "
            "the whole surface, averaged over orbits and solved again, as in the paper) "
-           "[the better of both; orbits with --field paper]")
+           "[the better of both; orbits with --field paper and --symmetry field]")
         ->check(CLI::IsMember({"orbits", "term"}));
     app.add_option(
         "--alpha", options.alpha,
@@ -238,7 +245,7 @@ void add_method_options(CLI::App& app, RunCommand& command) {
     app.add_option(
         "--singularity-cost", options.singularity_cost,
         "Energy that one singularity may cost, in squared radians (convex only) [0.08; 0.1 "
-        "with --symmetry exact, 0.2 where orbits are averaged]");
+        "with --symmetry exact, 0.2 with --symmetry field where orbits are averaged]");
     app.add_option(
            "--relax", options.relax_rounds,
            "Rounds in which the vertices slide over the surface towards squares, then right "

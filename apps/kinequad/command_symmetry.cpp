@@ -6,10 +6,10 @@
 
 #include "commands.h"
 #include "input_options.h"
-#include "kinequad/deformation/compute_mean_metric.h"
 #include "kinequad/io/files.h"
 #include "kinequad/io/landmarks.h"
 #include "kinequad/pipeline/find_symmetry.h"
+#include "kinequad/pipeline/solve_quads.h"
 #include "kinequad/symmetry/format_symmetry_json.h"
 
 namespace kinequad::app {
@@ -21,6 +21,7 @@ struct SymmetryCommand {
     std::string landmarks;
     std::string output;
     std::string reference = "0";
+    std::string metric = "mean";
 };
 
 void print_quality(const FoundSymmetry& found, const std::string& output) {
@@ -41,7 +42,9 @@ void find(const SymmetryCommand& command, Session& session) {
     const Positions reference =
         read_reference(*source, parse_reference(command.reference, *source));
     const Topology topology = build_topology(source->triangles(), source->vertex_count());
-    const IntrinsicMetric metric = compute_mean_metric(*source, topology, context);
+    Options options;
+    options.metric = command.metric == "reference" ? MetricChoice::reference : MetricChoice::mean;
+    const IntrinsicMetric metric = choose_metric(*source, topology, reference, options, context);
     const FoundSymmetry found = find_symmetry(*source, metric, landmarks, reference, context);
     write_file_atomically(command.output, format_symmetry_json(found.map));
     session.finish();
@@ -68,6 +71,10 @@ void add_symmetry_command(CLI::App& program, Session& session) {
            "--reference", command->reference,
            "Frame in which distances are reported, counted from 0, or rest: the OBJ beside a "
            "PC2 or MDD cache")
+        ->capture_default_str();
+    app.add_option("--metric", command->metric,
+                   "Edge lengths that the surface is known by: mean (over the frames) or reference")
+        ->check(CLI::IsMember({"mean", "reference"}))
         ->capture_default_str();
     command->input_options.add_options(app);
     session.add_options(app);

@@ -21,6 +21,12 @@ std::string format_run_summary(const nlohmann::ordered_json& record,
     fmt::format_to(out, "quads   {} vertices, {} quads, {} singularities in the field\n",
                    record["quads"]["vertices"].get<int>(), record["quads"]["quads"].get<int>(),
                    record["field"]["singularities"].get<int>());
+    const auto& symmetry = record["symmetry"];
+    if (!symmetry.is_null()) {
+        fmt::format_to(out, "mirror  {} map, p to S(S(p)) {:.3f} % of the diagonal in the mean\n",
+                       symmetry["method"].get<std::string>(),
+                       symmetry["involution_mean_percent"].get<double>());
+    }
     fmt::format_to(out, "folder  {}\n\n", folder.string());
     if (metrics) fmt::format_to(out, "{}\n", format_metrics_table(*metrics));
     fmt::format_to(out, "{:<14}{:>10}{:>10}\n", "stage", "wall s", "CPU s");

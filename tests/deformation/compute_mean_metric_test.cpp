@@ -31,6 +31,19 @@ TEST(MeanMetric, AveragesLengthsNotPositions) {
     EXPECT_LT((mean - 2 * metric_of(topology, mesh.V).edge_length).cwiseAbs().maxCoeff(), 1e-14);
 }
 
+TEST(MeanMetric, NamesAFrameThatIsASinglePoint) {
+    const TriangleMesh mesh = test::tetrahedron();
+    const MemorySequence frames(mesh.F, {mesh.V, 0 * mesh.V}, std::nullopt, "some/frames");
+    try {
+        compute_mean_metric(frames, build_topology(mesh.F, 4), {});
+        ADD_FAILURE() << "was accepted";
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.fault(), InputFault::mesh);
+        EXPECT_NE(std::string(error.what()).find("some/frames: in frame 1"), std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(MeanMetric, SameBytesOnAnyNumberOfThreads) {
     const TriangleMesh mesh = test::torus(90, 70);
     const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));

@@ -20,30 +20,36 @@ TEST(ReadLandmarks, ReadsPairsAndStationaryVertices) {
         R"({"pairs": [[4, 7], [0, 1]], "stationary": [9], "names": ["x"]})", "marks.json");
     EXPECT_EQ(both.pairs, (std::vector<std::array<int, 2>>{{4, 7}, {0, 1}}));
     EXPECT_EQ(both.stationary, std::vector<int>{9});
-    EXPECT_TRUE(parse_landmarks("{}", "marks.json").pairs.empty());
-    EXPECT_EQ(parse_landmarks(R"({"stationary": [1, 2]})", "marks.json").stationary.size(), 2U);
+    EXPECT_EQ(both.name, "marks.json");
+    EXPECT_TRUE(parse_landmarks(R"({"pairs": [[4, 7]]})", "marks.json").stationary.empty());
+    const std::string line_alone = R"({"pairs": [], "stationary": [1, 2]})";
+    EXPECT_EQ(parse_landmarks(line_alone, "marks.json").stationary.size(), 2U);
 }
 
 TEST(ReadLandmarks, RefusesWhatIsWrong) {
     expect_landmarks_fault("", InputFault::file, {"marks.json", "no valid JSON"});
     expect_landmarks_fault("{\"pairs\": [[1,\n2", InputFault::file, {"marks.json", "line 2"});
     expect_landmarks_fault("[1]", InputFault::file, {"marks.json", "pairs"});
+    expect_landmarks_fault(R"({"pair": [[1, 2]], "stationary": [3]})", InputFault::file,
+                           {"marks.json", "no \"pairs\""});
     expect_landmarks_fault(R"({"pairs": 3})", InputFault::file, {"\"pairs\"", "list"});
     expect_landmarks_fault(R"({"pairs": [[1, 2], [3]]})", InputFault::file, {"pairs[1]", "two"});
     expect_landmarks_fault(R"({"pairs": [[1, 2.5]]})", InputFault::file, {"pairs[0][1]"});
-    expect_landmarks_fault(R"({"stationary": ["a"]})", InputFault::file, {"stationary[0]"});
+    expect_landmarks_fault(R"({"pairs": [], "stationary": ["a"]})", InputFault::file,
+                           {"stationary[0]"});
     expect_landmarks_fault(R"({"pairs": [[1, -2]]})", InputFault::symmetry, {"pairs[0][1]", "-2"});
     expect_landmarks_fault(R"({"pairs": [[1, 18446744073709551615]]})", InputFault::symmetry,
-                           {"pairs[0][1]"});
-    expect_landmarks_fault(R"({"pairs": [[1, 1]]})", InputFault::symmetry, {"vertex 1", "twice"});
+                           {"pairs[0][1] is 18446744073709551615"});
+    expect_landmarks_fault(R"({"pairs": [[4, 5], [1, 1]]})", InputFault::symmetry,
+                           {"pairs[1]", "vertex 1 to itself", "stationary"});
     expect_landmarks_fault(R"({"pairs": [[1, 2]], "stationary": [2]})", InputFault::symmetry,
-                           {"vertex 2"});
+                           {"vertex 2", "pairs[0][1] and stationary[0]"});
     const std::string deep(100000, '[');
     expect_landmarks_fault(deep, InputFault::file, {"marks.json"});
     const Landmarks landmarks = parse_landmarks(R"({"pairs": [[4, 7]]})", "marks.json");
-    EXPECT_NO_THROW(require_landmarks_fit(landmarks, 8, "marks.json"));
-    expect_input_error([&] { require_landmarks_fit(landmarks, 7, "marks.json"); },
-                       InputFault::symmetry, {"marks.json", "vertex 7", "7 vertices"});
+    EXPECT_NO_THROW(require_landmarks_fit(landmarks, 8));
+    expect_input_error([&] { require_landmarks_fit(landmarks, 7); }, InputFault::symmetry,
+                       {"marks.json", "pairs[0][1] is 7", "7 vertices"});
 }
 
 TEST(ReadLandmarks, ReadsThoseOfTheRealSequences) {
@@ -99,7 +105,7 @@ TEST(ReadLandmarks, TenThousandRandomFilesAreUnderstoodOrRefused) {
         const std::string text = random_landmarks(random);
         try {
             const Landmarks landmarks = parse_landmarks(text, "marks.json");
-            require_landmarks_fit(landmarks, 60, "marks.json");
+            require_landmarks_fit(landmarks, 60);
             ++understood;
             for (const auto& [a, b] : landmarks.pairs) {
                 ASSERT_TRUE(0 <= a && a < 60 && 0 <= b && b < 60 && a != b) << text;

@@ -75,6 +75,24 @@ TEST(Recipes, LeaveNothingEmptyAndKeepWhatIsGiven) {
     }
 }
 
+TEST(Options, ThePaperMakesTheFieldSymmetricByOrbits) {
+    Options options;
+    options.field = CrossFieldMethod::paper;
+    EXPECT_EQ(resolve_options(options, 10, false, true).symmetry, SymmetryMode::field);
+    EXPECT_EQ(resolve_options(options, 10, false, false).symmetry, SymmetryMode::none);
+    const std::vector<Options> made = recipes(options, true);
+    ASSERT_EQ(made.size(), 1U);
+    EXPECT_EQ(made[0].symmetrisation, Symmetrisation::orbits);
+    // What a run with mirrored quads records can be given again.
+    options.symmetry = SymmetryMode::exact;
+    for (const Options& recorded : recipes(options, true)) {
+        EXPECT_EQ(recipes(recorded, true).size(), 1U);
+    }
+    options.symmetry = SymmetryMode::field;
+    options.symmetrisation = Symmetrisation::term;
+    expect_refused(options, "--symmetrise");
+}
+
 TEST(Options, LandmarksAskForMirroredQuads) {
     EXPECT_EQ(resolve_options({}, 10, false, true).symmetry, SymmetryMode::exact);
     EXPECT_EQ(resolve_options({}, 10, false, false).symmetry, SymmetryMode::none);

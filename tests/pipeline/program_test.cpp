@@ -243,6 +243,73 @@ TEST(Program, FindsTheSymmetryOfACreatureWithoutAndWithLandmarks) {
     }
 }
 
+TEST(Program, AnswersLandmarksThatDoNotFitWithCode5) {
+    const ScratchFolder scratch;
+    make_biped(scratch);
+    const auto good = nlohmann::json::parse(content_of(scratch / "biped" / "landmarks.json"));
+    const auto expect_refused = [&](const nlohmann::json& landmarks, const std::string& part) {
+        write_content(scratch / "marks.json", landmarks.dump());
+        const Outcome outcome =
+            run_program(scratch, "symmetry biped --landmarks marks.json -o map.json -q");
+        EXPECT_EQ(outcome.code, 5) << outcome.err;
+        EXPECT_NE(outcome.err.find("marks.json: "), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_FALSE(std::filesystem::exists(scratch / "map.json"));
+    };
+    auto twice = good;
+    twice["pairs"].push_back(good["pairs"][0]);
+    expect_refused(twice, "is named twice, as pairs[0][0] and");
+    auto beyond = good;
+    beyond["pairs"][1][1] = 1'000'000;
+    expect_refused(beyond, "pairs[1][1] is 1000000");
+    auto exchanged = good;
+    std::swap(exchanged["pairs"][0][1], exchanged["pairs"][good["pairs"].size() - 1][1]);
+    expect_refused(exchanged, "disagree");
+    auto few = good;
+    few["pairs"] = {good["pairs"][0]};
+    few["stationary"] = nlohmann::json::array();
+    expect_refused(few, "1 pair and 0 stationary vertices");
+}
+
+TEST(Program, DumpsWhatEveryStageMade) {
+    const ScratchFolder scratch;
+    make_biped(scratch);
+    const int vertices = static_cast<int>(
+        nlohmann::json::parse(content_of(scratch / "biped" / "mirror.json"))["mirror"].size());
+    for (const std::string mode : {"none", "field", "exact"}) {
+        SCOPED_TRACE(mode);
+        const Outcome outcome = run_program(
+            scratch, "run biped --landmarks biped/landmarks.json --symmetry " + mode +
+                         " --vertices 800 --no-metrics --no-report -q -o out --dump-stages " +
+                         mode);
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        const auto stage = [&](const char* name) {
+            return nlohmann::json::parse(
+                content_of(scratch / mode / (std::string(name) + ".json")));
+        };
+        const auto triangles = stage("check")["twin"].size() / 3;
+        EXPECT_EQ(stage("check")["vertex_half_edge"].size(), vertices);
+        EXPECT_GT(stage("metric")["edge_length"].size(), 0U);
+        // Field, deformation of the last recipe and map are over one triangulation.
+        const auto crosses = stage("field")["angle"].size();
+        for (const auto& parent : stage("map")["parent"]) ASSERT_LT(parent.get<int>(), crosses);
+        if (mode == "none") {
+            EXPECT_EQ(crosses, triangles);
+            EXPECT_EQ(stage("deformation")["stretch_sum"].size(), triangles);
+        } else {
+            EXPECT_EQ(stage("symmetry")["image"].size(), vertices);
+            EXPECT_NE(crosses, triangles);
+        }
+        const auto extracted = stage("extraction");
+        const auto relaxed = stage("relaxation");
+        EXPECT_GT(extracted["quads"].size(), 300U);
+        for (const auto& point : extracted["vertex"]) ASSERT_LT(point[0].get<int>(), triangles);
+        const std::size_t sides = mode == "exact" ? 2 : 1;
+        EXPECT_EQ(relaxed["quads"].size(), sides * extracted["quads"].size());
+    }
+}
+
 TEST(Program, ChecksAndRepairsMeshes) {
     const ScratchFolder scratch;
     // A square of four triangles around vertex 5, one turned over, one repeated.

@@ -16,11 +16,16 @@ protected:
     BadLandmarks()
         : mesh{creature->read_rest_shape(), creature->triangles()}, good(creature->landmarks()) {}
 
-    /// What the program answers, empty where it takes the landmarks.
+    /// What the program answers: its error, or the warnings, empty where it takes the landmarks.
     std::string answer(const Landmarks& landmarks) const {
+        std::string warnings;
+        Context context;
+        context.log = [&](LogLevel level, std::string_view line) {
+            if (level == LogLevel::warning) warnings += line;
+        };
         try {
-            compute_symmetry_map(mesh, test::metric_of(mesh), landmarks, {}, {});
-            return {};
+            compute_symmetry_map(mesh, test::metric_of(mesh), landmarks, {}, context);
+            return warnings;
         } catch (const InputError& error) {
             EXPECT_EQ(error.fault(), InputFault::symmetry);
             return error.what();
@@ -43,6 +48,11 @@ TEST_F(BadLandmarks, AreNotTheGoodOnes) { EXPECT_EQ(answer(good), ""); }
 TEST_F(BadLandmarks, MayHaveLeftAndRightExchangedInAPair) {
     Landmarks landmarks = good;
     std::swap(landmarks.pairs[1][0], landmarks.pairs[1][1]);
+    expect_answer(landmarks, "pairs[1]");
+    expect_answer(landmarks, "the other way around");
+    // Who does not mind the order is not told.
+    std::swap(landmarks.pairs[2][0], landmarks.pairs[2][1]);
+    std::swap(landmarks.pairs[3][0], landmarks.pairs[3][1]);
     EXPECT_EQ(answer(landmarks), "");
 }
 
@@ -55,7 +65,7 @@ TEST_F(BadLandmarks, AreNamedWhereAPairIsGivenTwice) {
 TEST_F(BadLandmarks, AreNamedWhereAPairIsOnOnePoint) {
     Landmarks landmarks = good;
     landmarks.pairs[2][1] = landmarks.pairs[2][0];
-    expect_answer(landmarks, "is named twice");
+    expect_answer(landmarks, "pairs[2] joins vertex");
 }
 
 TEST_F(BadLandmarks, AreNamedWhereAVertexDoesNotExist) {
@@ -74,8 +84,9 @@ TEST_F(BadLandmarks, AreNamedWherePartnersOfTwoPairsAreExchanged) {
         landmarks.pairs[i][1] = good.pairs[(i + 1) % good.pairs.size()][0];
         landmarks.pairs[(i + 1) % good.pairs.size()][0] = good.pairs[i][1];
         const std::string text = answer(landmarks);
-        const bool is_named = text.find("pair " + std::to_string(i) + " ") != std::string::npos ||
-                              text.find("pair " + std::to_string(i + 1) + " ") != std::string::npos;
+        const bool is_named =
+            text.find("pairs[" + std::to_string(i) + "]") != std::string::npos ||
+            text.find("pairs[" + std::to_string(i + 1) + "]") != std::string::npos;
         EXPECT_TRUE(is_named) << i << ": " << text;
     }
 }
@@ -84,14 +95,23 @@ TEST_F(BadLandmarks, AreNamedWhereAStationaryVertexIsOnOneSide) {
     Landmarks landmarks = good;
     landmarks.stationary.push_back(landmarks.pairs[0][0]);
     landmarks.pairs.erase(landmarks.pairs.begin());
-    expect_answer(landmarks, "stationary vertex " + std::to_string(landmarks.stationary.back()) +
-                                 " disagrees");
+    expect_answer(landmarks, "stationary[" + std::to_string(landmarks.stationary.size() - 1) +
+                                 "] (" + std::to_string(landmarks.stationary.back()) +
+                                 ") disagrees");
 }
 
 TEST_F(BadLandmarks, AreCountedWhereTheyAreTooFew) {
     expect_answer({}, "0 pairs and 0 stationary");
-    expect_answer({{good.pairs[0]}, {}}, "1 pairs and 0 stationary");
+    expect_answer({{good.pairs[0]}, {}}, "1 pair and 0 stationary");
     expect_answer({{}, {good.stationary[0], good.stationary[1]}}, "at least two pairs");
+}
+
+TEST_F(BadLandmarks, AreNamedWhereAVertexIsInNoTriangle) {
+    mesh.V.conservativeResize(mesh.V.rows() + 1, 3);
+    mesh.V.bottomRows(1).setZero();
+    Landmarks landmarks = good;
+    landmarks.stationary.push_back(static_cast<int>(mesh.V.rows()) - 1);
+    expect_answer(landmarks, "belongs to no triangle");
 }
 
 TEST_F(BadLandmarks, DoNotGiveAMapOfLooseParts) {

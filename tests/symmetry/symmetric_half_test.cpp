@@ -98,24 +98,29 @@ TEST(EvenOutHalf, LeavesAnExactMapAlone) {
     EXPECT_LT(largest_error(it, images), 1e-6);
 }
 
-TEST(EvenOutHalf, BringsDisplacedImagesBack) {
-    const test::SymmetricShape shape = test::bumpy_ellipsoid(4);
-    HalfShape it = half_of(exact_map(shape.mesh), shape);
-    const Topology half = build_topology(it.half.mesh.F, it.half.mesh.vertex_count);
-    Positions X(it.half.mesh.vertex_count, 3);
-    const std::vector<SurfacePoint> points = vertex_points(it.half.mesh);
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        X.row(static_cast<Eigen::Index>(v)) =
-            position_of(points[v], shape.mesh.V, shape.mesh.F).transpose();
+TEST(EvenOutHalf, BringsDisplacedImagesBackAtAnyScale) {
+    for (const double scale : {1.0, 1e-8, 1e8}) {
+        SCOPED_TRACE(scale);
+        test::SymmetricShape shape = test::bumpy_ellipsoid(4);
+        shape.mesh.V *= scale;
+        HalfShape it = half_of(exact_map(shape.mesh), shape);
+        const Topology half = build_topology(it.half.mesh.F, it.half.mesh.vertex_count);
+        Positions X(it.half.mesh.vertex_count, 3);
+        const std::vector<SurfacePoint> points = vertex_points(it.half.mesh);
+        for (std::size_t v = 0; v < points.size(); ++v) {
+            X.row(static_cast<Eigen::Index>(v)) =
+                position_of(points[v], shape.mesh.V, shape.mesh.F).transpose();
+        }
+        // Every image inside goes to the middle of a triangle beside it.
+        for (std::size_t v = 0; v < points.size(); ++v) {
+            if (it.half.is_on_curve[v]) continue;
+            it.half.mirrored[v].barycentric = Vector3::Constant(1.0 / 3);
+        }
+        const double before = largest_error(it, it.half.mirrored);
+        const auto images =
+            even_out_half(it.half, metric_of(half, X), it.topology, it.metric, 20, {});
+        EXPECT_LT(largest_error(it, images), 0.3 * before);
     }
-    // Every image inside goes to the middle of a triangle beside it.
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        if (it.half.is_on_curve[v]) continue;
-        it.half.mirrored[v].barycentric = Vector3::Constant(1.0 / 3);
-    }
-    const double before = largest_error(it, it.half.mirrored);
-    const auto images = even_out_half(it.half, metric_of(half, X), it.topology, it.metric, 20, {});
-    EXPECT_LT(largest_error(it, images), 0.3 * before);
 }
 
 }  // namespace

@@ -185,8 +185,7 @@ TEST(SynthesizeCreature, HalfACycleLaterTheMirrorImageIsSeen) {
 TEST(SynthesizeCreature, LandmarksArePairsOfMirrorImagesAndFixedVertices) {
     for (const std::string& name : list_creatures()) {
         const auto creature = synthesize_creature(name, {1000, 4}, Context{});
-        EXPECT_NO_THROW(
-            require_landmarks_fit(creature->landmarks(), creature->vertex_count(), name));
+        EXPECT_NO_THROW(require_landmarks_fit(creature->landmarks(), creature->vertex_count()));
         std::set<int> seen(creature->landmarks().stationary.begin(),
                            creature->landmarks().stationary.end());
         for (const auto& pair : creature->landmarks().pairs) seen.insert(pair.begin(), pair.end());

@@ -22,6 +22,7 @@ IntrinsicMetric compute_mean_metric(const FrameSource& frames, const Topology& t
     for (int frame = 0; frame < count; ++frame) {
         context.report_progress("mean metric", static_cast<double>(frame) / count);
         const Positions V = frames.read_frame(frame);
+        require_extent(V, frame, frames);
         parallel_for(edge_count, block, context, [&](std::size_t begin, std::size_t end) {
             for (std::size_t e = begin; e < end; ++e) {
                 const double* a = V.data() + std::ptrdiff_t{3} * ends[2 * e];

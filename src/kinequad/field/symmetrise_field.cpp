@@ -150,7 +150,7 @@ FieldSymmetry measure_field_symmetry(const Topology& topology, const IntrinsicMe
         ++result.singularities;
         const Vector3 image = position_of(map.vertex_image[at(v)], V, F);
         const bool has_partner = std::any_of(singular.begin(), singular.end(), [&](int w) {
-            return field.index[w] == field.index[v] &&
+            return w != v && is_on_curve[at(w)] == 0 && field.index[w] == field.index[v] &&
                    (V.row(w).transpose() - image).norm() <= distance;
         });
         result.partnered += has_partner ? 1 : 0;

@@ -31,7 +31,7 @@ struct FieldSymmetry {
     /// its centre, carried over; in degrees, weighted by area. 22.5 for fields that do not care.
     double mean_degrees = 0;
     int singularities = 0;  ///< singular vertices inside that are off the stationary curve
-    /// Those of them with a singular vertex of the same index within the given distance of their
+    /// Those of them with another of them, of the same index, within the given distance of their
     /// image.
     int partnered = 0;
 };

@@ -37,4 +37,8 @@ public:
     virtual std::string name() const = 0;
 };
 
+/// Throws `InputError` (mesh), naming the frame, where all vertices of `V`, the frame `frame` of
+/// `frames`, are in one place: nothing can be measured there relative to its size.
+void require_extent(const Positions& V, int frame, const FrameSource& frames);
+
 }  // namespace kinequad

@@ -32,6 +32,18 @@ double triangle_area(std::array<double, 3> sides) {
     return product > 0 ? 0.25 * std::sqrt(product) : 0;
 }
 
+std::array<double, 3> opposite_cotangents(const std::array<double, 3>& sides) {
+    const double longest = std::max({sides[0], sides[1], sides[2]});
+    const double area = std::max(triangle_area(sides), 1e-7 * longest * longest);
+    std::array<double, 3> result{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double left = sides[(k + 1) % 3];
+        const double right = sides[(k + 2) % 3];
+        result[k] = (left * left + right * right - sides[k] * sides[k]) / (4 * area);
+    }
+    return result;
+}
+
 std::array<double, 3> corner_angles(const std::array<double, 3>& sides) {
     const double area4 = 4 * triangle_area(sides);
     std::array<double, 3> angles{};

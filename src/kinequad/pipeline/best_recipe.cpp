@@ -126,6 +126,7 @@ QuadMesh solve_best_recipe(const std::vector<DomainView>& views, Result& result,
     QuadMesh quads = put_attempt(*std::move(best), result);
     if (!is_best_last) {
         // Whoever watches the stages sees those that count last.
+        result.quads = on_input(quads, result);
         for (const char* stage : {"field", "map", "extraction"}) finish_stage(stage);
     }
     return quads;

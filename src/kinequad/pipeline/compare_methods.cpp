@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "kinequad/core/error.h"
-#include "kinequad/deformation/compute_mean_metric.h"
 #include "kinequad/measure/symmetry_error.h"
 #include "kinequad/pipeline/find_symmetry.h"
 #include "kinequad/pipeline/quadrangulate.h"
+#include "kinequad/pipeline/solve_quads.h"
 #include "kinequad/transfer/bind_to_surface.h"
 #include "kinequad/transfer/transfer.h"
 
@@ -200,7 +200,10 @@ private:
     void measure() {
         topology_ = build_topology(source_.triangles(), source_.vertex_count());
         std::vector<ComparedMethod>& methods = result_.comparison.methods;
-        const IntrinsicMetric mean = compute_mean_metric(source_, topology_, context_);
+        Options mean_lengths;
+        mean_lengths.metric = MetricChoice::mean;
+        const IntrinsicMetric mean =
+            choose_metric(source_, topology_, reference_, mean_lengths, context_);
         const std::optional<SymmetryMap> map =
             find_measuring_map(source_, mean, options_.landmarks, reference_, context_);
         for (std::size_t i = 0; map && i < methods.size(); ++i) {
@@ -240,7 +243,7 @@ std::vector<ComparedRecipe> comparison_recipes(const Options& base, bool has_lan
     paper.feature_angle = 0;
     paper.relax_rounds = 0;
     paper.alpha = default_alpha(CrossFieldMethod::paper);
-    paper.symmetry = has_landmarks ? SymmetryMode::field : SymmetryMode::none;
+    paper.symmetry = SymmetryMode::field;
 
     Options animation_only = paper;
     animation_only.symmetry = SymmetryMode::none;
@@ -248,15 +251,19 @@ std::vector<ComparedRecipe> comparison_recipes(const Options& base, bool has_lan
     Options single_pose = animation_only;
     single_pose.alpha = 0;
 
-    return {
+    std::vector<ComparedRecipe> recipes = {
         {"single pose",
          "Mixed-integer quadrangulation of the reference frame alone: no animation, no symmetry.",
          single_pose},
         {"animation only",
          "The paper's baseline: its energy with the stretch of all frames, without symmetry.",
-         animation_only, true},
-        {"paper", "The method of Du and Tu to the letter.", paper},
-        {"kinequad", "Kinequad with its defaults.", base}};
+         animation_only, true}};
+    // Without a symmetry the paper's method is its baseline.
+    if (has_landmarks || base.symmetry.value_or(SymmetryMode::none) != SymmetryMode::none) {
+        recipes.push_back({"paper", "The method of Du and Tu to the letter.", paper});
+    }
+    recipes.push_back({"kinequad", "Kinequad with its defaults.", base});
+    return recipes;
 }
 
 ComparisonResult compare_methods(const FrameSource& source, const ComparisonOptions& options,

@@ -1,10 +1,12 @@
 #include "kinequad/pipeline/dump_stage.h"
 
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "kinequad/field/trace_streamlines.h"
 #include "kinequad/io/files.h"
+#include "kinequad/symmetry/format_symmetry_json.h"
 
 namespace kinequad {
 namespace {
@@ -110,10 +112,12 @@ Json record_of(std::string_view stage, const Result& result) {
         return {{"edge_length", list(result.domain.metric.edge_length)},
                 {"quad_edge_length", result.edge_length}};
     }
+    if (stage == "symmetry") return Json::parse(format_symmetry_json(result.symmetry->map));
     if (stage == "deformation") return deformation_record(result.tensors);
     if (stage == "field") return cross_field_record(result);
     if (stage == "map") return map_record(result.map);
-    return quads_record(result.quads);
+    if (stage == "extraction" || stage == "relaxation") return quads_record(result.quads);
+    throw std::invalid_argument("no record of the stage " + std::string(stage));
 }
 
 }  // namespace

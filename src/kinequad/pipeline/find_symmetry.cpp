@@ -22,7 +22,6 @@ FoundSymmetry find_symmetry(const FrameSource& source, const IntrinsicMetric& me
     TriangleMesh mesh{reference, source.triangles()};
     FoundSymmetry found;
     if (landmarks) {
-        require_landmarks_fit(*landmarks, source.vertex_count(), source.name());
         found.map = compute_symmetry_map(mesh, metric, *landmarks, {}, context);
         context.write_log(LogLevel::info, "symmetry: from the landmarks");
     } else {

@@ -13,9 +13,12 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape, b
         require(condition, InputFault::usage, message);
     };
     if (!options.symmetry) {
-        options.symmetry = has_landmarks ? SymmetryMode::exact : SymmetryMode::none;
+        // The paper makes the field alone symmetric.
+        options.symmetry = !has_landmarks                             ? SymmetryMode::none
+                           : options.field == CrossFieldMethod::paper ? SymmetryMode::field
+                                                                      : SymmetryMode::exact;
     }
-    check(options.field != CrossFieldMethod::paper ||
+    check(options.field != CrossFieldMethod::paper || options.symmetry != SymmetryMode::field ||
               options.symmetrisation.value_or(Symmetrisation::orbits) == Symmetrisation::orbits,
           "--symmetrise term: needs --field convex; the paper averages over orbits");
     const double alpha = options.alpha.value_or(default_alpha(options.field));

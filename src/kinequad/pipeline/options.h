@@ -35,13 +35,15 @@ struct Options {
     /// `reference` for the rest shape that comes beside a point cache.
     static constexpr int rest_shape = -1;
 
-    /// Empty: `exact` where there are landmarks, else `none`.
+    /// Empty: where there are landmarks `exact`, or `field` with the paper's field; else `none`.
     std::optional<SymmetryMode> symmetry;
-    int vertices = 5200;     ///< wanted number of quad vertices, met within 5 %
+    int vertices =
+        5200;  ///< wanted number of quad vertices, met within 5 % where the surface lets it be
     double edge_length = 0;  ///< wanted quad edge length in units of the input; 0: from `vertices`
     /// Recipe of the cross field; `paper` is the energy and solver of Du and Tu.
     CrossFieldMethod field = CrossFieldMethod::convex;
-    /// Empty: `orbits` with the paper's field, else what is better for the input.
+    /// Empty: `orbits` with the paper's field and the symmetry `field`, else what is better for the
+    /// input.
     std::optional<Symmetrisation> symmetrisation;
     /// Influence of the animation on the cross field; empty: what was measured best with `field`,
     /// and with symmetry what is best for the input. With 0 the run sees a single pose, the

@@ -92,8 +92,9 @@ void require_symmetric_detail(const FrameSource& source, const Topology& topolog
     for (int t = 0; t < topology.triangle_count; ++t) {
         const int triangles =
             count[static_cast<std::size_t>(component[static_cast<std::size_t>(t)])];
-        require(
-            triangles >= least_triangles, InputFault::symmetry,
+        if (triangles >= least_triangles) continue;
+        throw InputError(
+            InputFault::symmetry,
             fmt::format("{}: the connected part with triangle {} has {} triangle{}, too few for "
                         "symmetric quads; subdivide it, or run with --symmetry none",
                         source.name(), t, triangles, triangles == 1 ? "" : "s"));
@@ -172,7 +173,7 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
     require_valid_input(source, result.reference, context);
     result.topology = build_topology(source.triangles(), source.vertex_count());
     result.features = find_features(result.topology, result.reference, result.options);
-    if (landmarks) require_landmarks_fit(*landmarks, source.vertex_count(), source.name());
+    if (landmarks) require_landmarks_fit(*landmarks, source.vertex_count());
     if (can_be_refined(result, landmarks)) {
         result.refined = refine_coarse_input(result.topology, result.reference, result.features,
                                              result.options, context);
@@ -215,7 +216,8 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
         const std::vector<DomainView> views = {{frames, reference, metric}};
         result.options = list_recipes(result.options).front();
         measure_deformation(views, result, context, finish_stage);
-        solve_field(result, context, finish_stage);
+        solve_field(result, context);
+        finish_stage("field");
         const QuadMesh quads = map_and_extract(views, result, context, finish_stage);
         result.quads = relax_on_domain(result.domain, views, result.map.feature_edges, quads,
                                        result.options, context);

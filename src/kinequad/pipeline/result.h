@@ -46,7 +46,7 @@ struct Result {
     DeformationTensors tensors;
     CrossField field;
     GridMap map;
-    QuadMesh quads;  ///< on the input
+    QuadMesh quads;  ///< on the input; of a half until both sides are joined
     /// Where the wanted density was not met, and why; a line each.
     std::vector<std::string> notes;
     std::vector<StageTime> times;  ///< of the stages in the order they ran

@@ -131,7 +131,7 @@ nlohmann::ordered_json make_options_record(const Options& options) {
         {"alpha", *options.alpha},
         {"curvature", options.curvature},
         {"feature_angle", options.feature_angle},
-        {"features", options.features.size()},
+        {"features", options.features},
         {"singularity_cost", *options.singularity_cost},
         {"metric", options.metric == MetricChoice::mean ? "mean" : "reference"},
         {"reference", rest ? Json("rest") : Json(options.reference)},

@@ -178,7 +178,7 @@ QuadMesh separate_from_curve(QuadMesh quads, const Domain& domain,
         });
 }
 
-/// How far quads of a run on `vertex_count` vertices are relaxed.
+/// How far quads of a run are relaxed, where a frame of all its views has `vertex_count` vertices.
 RelaxOptions relax_options(const Options& run, int vertex_count) {
     RelaxOptions options;
     options.rounds = run.relax_rounds;
@@ -219,10 +219,17 @@ void measure_deformation(const std::vector<DomainView>& views, Result& result,
     finish_stage("deformation");
 }
 
-void solve_field(Result& result, const Context& context, const StageEnd& finish_stage,
+void solve_field(Result& result, const Context& context,
                  const std::optional<CrossFieldTargets>& targets) {
     result.field = make_cross_field(result, targets ? *targets : make_targets(result), context);
-    finish_stage("field");
+}
+
+QuadMesh on_input(QuadMesh quads, const Result& result) {
+    for (SurfacePoint& point : quads.vertex) {
+        point = point_of_input(result.domain.surface.mesh, point);
+        if (result.refined) point = point_of_input(*result.refined, point);
+    }
+    return quads;
 }
 
 QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
@@ -245,6 +252,7 @@ QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
             QuadMesh quads = extract_quads(result.map, context);
             if (domain.is_half()) quads = separate_from_curve(std::move(quads), domain, views);
             require_valid(verify_quad_mesh(quads, domain.topology));
+            result.quads = on_input(quads, result);
             finish_stage("extraction");
             return quads;
         } catch (const Error& error) {
@@ -268,7 +276,8 @@ QuadMesh relax_on_domain(const Domain& domain, const std::vector<DomainView>& vi
                          const std::vector<int>& feature_edges, const QuadMesh& quads,
                          const Options& run, const Context& context) {
     if (run.relax_rounds == 0) return quads;
-    RelaxOptions options = relax_options(run, domain.surface.mesh.vertex_count);
+    RelaxOptions options =
+        relax_options(run, static_cast<int>(views.size()) * domain.surface.mesh.vertex_count);
     options.reference_frame = is_single_pose(run) ? std::optional<int>(0)
                               : run.reference != Options::rest_shape
                                   ? std::optional<int>(run.reference)

@@ -45,12 +45,15 @@ void measure_deformation(const std::vector<DomainView>& views, Result& result,
 /// the orbits of `result.symmetry`, whose triangles are the domain's then. What crosses are drawn
 /// to is `targets`, where given, in place of the deformation. Fills in `field`. Throws as
 /// `quadrangulate`.
-void solve_field(Result& result, const Context& context, const StageEnd& finish_stage,
+void solve_field(Result& result, const Context& context,
                  const std::optional<CrossFieldTargets>& targets = std::nullopt);
 
+/// `quads`, on the triangles of `result.domain`, as points of the input.
+QuadMesh on_input(QuadMesh quads, const Result& result);
+
 /// Makes quads of `result.field` over `result.domain`: map and extraction, each verified. Fills in
-/// `map`. Returns the quads, whose vertices are points of the domain's triangles. Throws as
-/// `quadrangulate`.
+/// `map`, and `quads` with what is extracted. Returns the quads, whose vertices are points of the
+/// domain's triangles. Throws as `quadrangulate`.
 QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,
                          const Context& context, const StageEnd& finish_stage);
 

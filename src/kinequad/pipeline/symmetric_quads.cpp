@@ -123,7 +123,7 @@ CrossFieldTargets targets_from_whole(Result& whole, const Options& recipe, const
     constexpr double weight = 0.1;
     whole.options = recipe;
     whole.options.symmetry = SymmetryMode::none;
-    solve_field(whole, context, [](const char*) {});
+    solve_field(whole, context);
     return refine_targets(average_over_orbits(whole.domain.topology, whole.domain.metric,
                                               whole.field, map, weight, context),
                           whole.domain.topology, whole.domain.metric, half.mesh);
@@ -240,13 +240,14 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     const CutSurface cut(surface, split, result, context);
     const std::vector<DomainView> views = {cut.view()};
     const auto solve = [&] {
-        solve_field(result, context, finish_stage);
+        solve_field(result, context);
         result.field_symmetry =
             measure_field_symmetry(topology, metric, result.field, map, reference,
                                    frames.triangles(), 3 * result.edge_length);
         result.field = refine_cross_field(result.field, topology, metric, split.mesh,
                                           cut.domain().topology, cut.domain().metric);
         result.domain = cut.domain();
+        finish_stage("field");
         return map_and_extract(views, result, context, finish_stage);
     };
     const QuadMesh solved = solve_best_recipe(views, result, solve, context, finish_stage);
@@ -290,7 +291,8 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
             targets = targets_from_whole(*whole, result.options, result.symmetry->map,
                                          result.domain.surface, context);
         }
-        solve_field(result, context, finish_stage, targets);
+        solve_field(result, context, targets);
+        finish_stage("field");
         return map_and_extract(views, result, context, finish_stage);
     };
     const QuadMesh solved = solve_best_recipe(views, result, solve, context, finish_stage);

@@ -6,7 +6,6 @@
 #include "kinequad/core/index.h"
 
 namespace kinequad {
-namespace {}  // namespace
 
 BoundaryArcs::BoundaryArcs(const Topology& topology, const IntrinsicMetric& metric)
     : topology_(topology), start_(topology.origin.size()), length_(topology.origin.size(), 0) {

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <numeric>
+#include <tuple>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 
 namespace kinequad {
 namespace {
@@ -33,35 +35,66 @@ double quantile(std::vector<double> values, double share) {
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
+/// "X disagrees", or "X or Y disagrees" where what the landmarks differ by (`typical`, beyond
+/// `tolerated`) does not tell which of them it is, as where there are only a few.
+std::string describe_suspects(const Landmarks& names, const std::vector<double>& typical,
+                              double tolerated) {
+    constexpr double alike = 0.85;
+    constexpr std::size_t most_named = 3;
+    constexpr std::size_t few = 3;
+    std::vector<std::size_t> order(typical.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return typical[a] > typical[b]; });
+    std::vector<std::string> suspects;
+    for (const std::size_t i : order) {
+        const bool is_suspect = typical.size() <= few ? typical[i] > tolerated
+                                                      : typical[i] >= alike * typical[order[0]];
+        if (is_suspect && suspects.size() < most_named) {
+            suspects.push_back(describe_landmark(names, i));
+        }
+    }
+    return fmt::format("{} disagrees", fmt::join(suspects, " or "));
+}
+
 }  // namespace
 
-void check_landmarks(const Landmarks& landmarks, int vertex_count) {
-    std::set<int> seen;
-    const auto check = [&](int vertex) {
-        if (vertex < 0 || vertex >= vertex_count) {
-            throw InputError(InputFault::symmetry,
-                             fmt::format("landmarks: name vertex {}, but the mesh has {} vertices, "
-                                         "counted from 0",
-                                         vertex, vertex_count));
-        }
-        if (!seen.insert(vertex).second) {
-            throw InputError(InputFault::symmetry,
-                             fmt::format("landmarks: vertex {} is named twice; name it in one pair "
-                                         "or once as stationary",
-                                         vertex));
-        }
-    };
-    for (const auto& [a, b] : landmarks.pairs) {
-        check(a);
-        check(b);
+std::string describe_landmark(const Landmarks& landmarks, std::size_t i) {
+    if (i < landmarks.pairs.size()) {
+        const auto& [a, b] = landmarks.pairs[i];
+        return fmt::format("pairs[{}] ({}, {})", i, a, b);
     }
-    for (const int vertex : landmarks.stationary) check(vertex);
-    if (2 * landmarks.pairs.size() + landmarks.stationary.size() < 3) {
+    const std::size_t s = i - landmarks.pairs.size();
+    return fmt::format("stationary[{}] ({})", s, landmarks.stationary[s]);
+}
+
+void check_landmarks(const Landmarks& landmarks, const Topology& topology) {
+    require_landmarks_fit(landmarks, topology.vertex_count);
+    require_named_once(landmarks);
+    const std::size_t pairs = landmarks.pairs.size();
+    const std::size_t stationary = landmarks.stationary.size();
+    const auto require_used = [&](int vertex, std::size_t landmark) {
+        if (topology.vertex_half_edge[at(vertex)] >= 0) return;
         throw InputError(
             InputFault::symmetry,
-            fmt::format("landmarks: {} pairs and {} stationary vertices leave more than one "
-                        "symmetry; give at least two pairs, or one pair and a stationary vertex",
-                        landmarks.pairs.size(), landmarks.stationary.size()));
+            fmt::format("{}: vertex {} of {} belongs to no triangle; pick a vertex of "
+                        "the surface",
+                        landmarks.name, vertex, describe_landmark(landmarks, landmark)));
+    };
+    for (std::size_t p = 0; p < pairs; ++p) {
+        for (const int vertex : landmarks.pairs[p]) require_used(vertex, p);
+    }
+    for (std::size_t s = 0; s < stationary; ++s) {
+        require_used(landmarks.stationary[s], pairs + s);
+    }
+    if (2 * pairs + stationary < 3) {
+        throw InputError(
+            InputFault::symmetry,
+            fmt::format(
+                "{}: {} {} and {} stationary {} leave more than one symmetry; give at least "
+                "two pairs, a pair and a stationary vertex, or three stationary vertices",
+                landmarks.name, pairs, pairs == 1 ? "pair" : "pairs", stationary,
+                stationary == 1 ? "vertex" : "vertices"));
     }
 }
 
@@ -86,25 +119,38 @@ double compare_landmark_distances(const SurfaceDistances& distances, const Spher
         // limbs the two sides of another limb are almost equally far.
         typical[i] = quantile(seen, 0.75);
     }
-    const auto worst = static_cast<std::size_t>(std::max_element(typical.begin(), typical.end()) -
-                                                typical.begin());
-    const double worst_percent = typical[worst];
+    const double worst_percent = *std::max_element(typical.begin(), typical.end());
     // Where most agree well, less is enough to stand out.
     const double outlying = std::max(5.0, 5 * quantile(typical, 0.5));
-    if (worst_percent > std::min(tolerated_percent, outlying)) {
-        const bool is_pair = worst < names.pairs.size();
-        const std::string what =
-            is_pair
-                ? fmt::format("pair {} ({}, {})", worst, names.pairs[worst][0],
-                              names.pairs[worst][1])
-                : fmt::format("stationary vertex {}", names.stationary[worst - names.pairs.size()]);
-        throw InputError(InputFault::symmetry,
-                         fmt::format("landmarks: {} disagrees with the others: distances to them "
-                                     "differ by {:.0f} % of the surface's extent between the two "
-                                     "sides; pick it again",
-                                     what, worst_percent));
+    const double tolerated = std::min(tolerated_percent, outlying);
+    if (worst_percent > tolerated) {
+        throw InputError(
+            InputFault::symmetry,
+            fmt::format("{}: {} with the others: distances to them differ by {:.0f} % "
+                        "of the surface's extent between the two sides; pick it again",
+                        names.name, describe_suspects(names, typical, tolerated), worst_percent));
     }
     return count > 0 ? sum / count : 0;
+}
+
+void warn_of_turned_pairs(const Landmarks& landmarks, const Eigen::VectorXd& height,
+                          const Context& context) {
+    constexpr std::size_t least_agreeing = 3;
+    std::vector<std::size_t> upward;
+    std::vector<std::size_t> downward;
+    for (std::size_t p = 0; p < landmarks.pairs.size(); ++p) {
+        (height[landmarks.pairs[p][0]] > 0 ? upward : downward).push_back(p);
+    }
+    const auto& [few, many] =
+        upward.size() < downward.size() ? std::tie(upward, downward) : std::tie(downward, upward);
+    // Who never minded the order gets no warning.
+    if (many.size() < least_agreeing || few.size() * least_agreeing > many.size()) return;
+    for (const std::size_t p : few) {
+        context.write_log(LogLevel::warning,
+                          fmt::format("{}: {} names left and right the other way around than the "
+                                      "other pairs; the map is the same either way",
+                                      landmarks.name, describe_landmark(landmarks, p)));
+    }
 }
 
 }  // namespace kinequad

@@ -90,8 +90,9 @@ void require_sphere(const Topology& topology) {
     if (counts.components != 1) {
         throw InputError(
             InputFault::symmetry,
-            fmt::format("the surface has {} components, which landmarks alone do not match; join "
-                        "them, or bring a mirror-symmetric rest shape or frame",
+            fmt::format("the surface has {} components, which landmarks do not match; leave the "
+                        "landmarks out, so that a pose that a plane mirrors is looked for, or join "
+                        "the components",
                         counts.components));
     }
     if (counts.euler_characteristic != 2) {

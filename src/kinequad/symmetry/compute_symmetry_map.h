@@ -23,9 +23,10 @@ struct SymmetryOptions {
 /// `mesh` holds the positions of a reference shape, which only decide which seams coincide and how
 /// distances are reported; `metric` is over the edges of `build_topology(mesh.F, n)`, the mean
 /// metric or that of the reference. Landmarks in any order; the order in a pair does not matter.
-/// Throws `InputError` (symmetry) where landmarks repeat, are too few, or one disagrees with the
-/// others; where the surface has parts that do not join; where the result is no
-/// involution. [DuTu], [Panozzo 2012], docs/symmetry.md
+/// Throws `InputError` (symmetry) where landmarks repeat, are too few, or one or two disagree with
+/// the others, naming them; where the surface has parts that do not join; where the result is no
+/// involution. Warns where it is none in places, and of pairs that are the other way around than
+/// most. [DuTu], [Panozzo 2012], docs/symmetry.md
 SymmetryMap compute_symmetry_map(const TriangleMesh& mesh, const IntrinsicMetric& metric,
                                  const Landmarks& landmarks, const SymmetryOptions& options,
                                  const Context& context);

@@ -45,18 +45,14 @@ public:
         for (int t = 0; t < half_topology_.triangle_count; ++t) {
             const auto sides = side_lengths(half_topology_, half_metric, t);
             const auto layout = lay_out_triangle(sides);
-            const double area = std::max(triangle_area(sides), 1e-12);
+            const std::array<double, 3> cotangents = opposite_cotangents(sides);
             std::array<Complex, 3> corner;
             // The map reverses orientation: triangles are compared with their mirror images.
             for (int k = 0; k < 3; ++k) corner[at(k)] = {layout(0, k), -layout(1, k)};
             Triangle triangle;
-            triangle.area = area;
             for (std::size_t k = 0; k < 3; ++k) {
                 triangle.side[k] = corner[(k + 1) % 3] - corner[k];
-                const double opposite = sides[(k + 1) % 3] * sides[(k + 1) % 3] +
-                                        sides[(k + 2) % 3] * sides[(k + 2) % 3] -
-                                        sides[k] * sides[k];
-                triangle.weight[k] = std::clamp(opposite / (4 * area), least_weight, 20.0);
+                triangle.weight[k] = std::clamp(cotangents[k], least_weight, 20.0);
             }
             triangle_.push_back(triangle);
         }
@@ -141,7 +137,6 @@ private:
     struct Triangle {
         std::array<Complex, 3> side;     ///< mirrored, in the triangle's frame
         std::array<double, 3> weight{};  ///< cotangents
-        double area = 0;
     };
 
     /// Fills in what `v` sees along its half-edges, and against the half-edges that end in it.

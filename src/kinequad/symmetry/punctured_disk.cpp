@@ -34,20 +34,6 @@ bool breaks_triangle_inequality(const std::array<double, 3>& s) {
     return s[0] >= s[1] + s[2] || s[1] >= s[2] + s[0] || s[2] >= s[0] + s[1];
 }
 
-/// Half the cotangents of the angles opposite of the half-edges; areas are bounded from below so
-/// that slivers stay finite.
-std::array<double, 3> half_cotangents(const std::array<double, 3>& s) {
-    const double longest = std::max({s[0], s[1], s[2]});
-    const double area = std::max(triangle_area(s), 1e-7 * longest * longest);
-    std::array<double, 3> result{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double left = s[(k + 1) % 3];
-        const double right = s[(k + 2) % 3];
-        result[k] = (left * left + right * right - s[k] * s[k]) / (8 * area);
-    }
-    return result;
-}
-
 /// Inner vertices numbered from 0; -1 for the link, the puncture and isolated ones.
 std::vector<int> number_inner_vertices(const PuncturedDisk& disk, int& count) {
     std::vector<int> number(at(disk.vertex_count), -1);
@@ -87,12 +73,12 @@ Eigen::SparseMatrix<double> hessian_of(const PuncturedDisk& disk, const Eigen::V
     for (int t = 0; t < static_cast<int>(disk.mesh.origin.size() / 3); ++t) {
         const std::array<double, 3> sides = scaled_sides(disk.mesh, scale, t);
         if (breaks_triangle_inequality(sides)) continue;
-        const std::array<double, 3> weights = half_cotangents(sides);
+        const std::array<double, 3> weights = opposite_cotangents(sides);
         for (int k = 0; k < 3; ++k) {
             const int h = 3 * t + k;
             const int i = number[at(disk.mesh.origin[at(h)])];
             const int j = number[at(disk.mesh.target(h))];
-            const double w = weights[at(k)];
+            const double w = weights[at(k)] / 2;
             if (i >= 0) triplets.emplace_back(i, i, w);
             if (j >= 0) triplets.emplace_back(j, j, w);
             if (i >= 0 && j >= 0) triplets.emplace_back(std::max(i, j), std::min(i, j), -w);
@@ -256,8 +242,11 @@ Eigen::Matrix<Real, Eigen::Dynamic, 2> lay_out_disk(const PuncturedDisk& disk,
     std::vector<Coupling> couplings;
     std::vector<double> weight(disk.mesh.half_edge.size(), 0.0);
     for (int t = 0; t < static_cast<int>(disk.mesh.origin.size() / 3); ++t) {
-        const std::array<double, 3> cotangents = half_cotangents(scaled_sides(disk.mesh, scale, t));
-        for (int k = 0; k < 3; ++k) weight[at(disk.mesh.edge[at(3 * t + k)])] += cotangents[at(k)];
+        const std::array<double, 3> cotangents =
+            opposite_cotangents(scaled_sides(disk.mesh, scale, t));
+        for (int k = 0; k < 3; ++k) {
+            weight[at(disk.mesh.edge[at(3 * t + k)])] += cotangents[at(k)] / 2;
+        }
     }
     for (std::size_t e = 0; e < weight.size(); ++e) {
         const int h = disk.mesh.half_edge[e];

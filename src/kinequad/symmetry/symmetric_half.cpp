@@ -16,8 +16,6 @@
 namespace kinequad {
 namespace {
 
-/// Share of an edge within which vertices come to lie on the curve.
-
 /// Half-edges of the boundary.
 std::vector<int> boundary_half_edges(const Topology& topology) {
     std::vector<int> result;

@@ -50,7 +50,7 @@ struct SymmetryMap {
     /// Every triangle that the curve crosses, once, in the order of the polylines, with the curve's
     /// direction smoothed along it.
     std::vector<StationaryDirection> stationary_direction;
-    std::string method;  ///< "conformal" or "mirror plane", for the log
+    std::string method;  ///< "conformal", "harmonic" or "mirror plane"
     SymmetryQuality quality;
 };
 

@@ -57,23 +57,33 @@ Vector3 image_position(const TriangleMesh& mesh, const std::vector<SurfacePoint>
     return position;
 }
 
+InvolutionError measure_involution(const TriangleMesh& mesh,
+                                   const std::vector<SurfacePoint>& vertex_image) {
+    InvolutionError error;
+    const double percent = 100 / bounding_box_diagonal(mesh.V);
+    int mapped = 0;
+    for (Eigen::Index v = 0; v < mesh.V.rows(); ++v) {
+        const SurfacePoint& image = vertex_image[at(v)];
+        if (image.triangle < 0) continue;
+        const Vector3 twice = image_position(mesh, vertex_image, image);
+        const double off = percent * (twice - mesh.V.row(v).transpose()).norm();
+        error.mean_percent += off;
+        ++mapped;
+        error.max_percent = std::max(error.max_percent, off);
+    }
+    error.mean_percent /= std::max(mapped, 1);
+    return error;
+}
+
 SymmetryReport verify_symmetry_map(const TriangleMesh& mesh, const SymmetryMap& map) {
     SymmetryReport report;
     report.problem = find_problem(mesh, map);
     report.is_complete = report.problem.empty();
     if (!report.is_complete) return report;
+    const InvolutionError involution = measure_involution(mesh, map.vertex_image);
+    report.involution_mean_percent = involution.mean_percent;
+    report.involution_max_percent = involution.max_percent;
     const double percent = 100 / bounding_box_diagonal(mesh.V);
-    int mapped = 0;
-    for (Eigen::Index v = 0; v < mesh.V.rows(); ++v) {
-        const SurfacePoint& image = map.vertex_image[static_cast<std::size_t>(v)];
-        if (image.triangle < 0) continue;
-        const Vector3 twice = image_position(mesh, map.vertex_image, image);
-        const double off = percent * (twice - mesh.V.row(v).transpose()).norm();
-        report.involution_mean_percent += off;
-        ++mapped;
-        report.involution_max_percent = std::max(report.involution_max_percent, off);
-    }
-    report.involution_mean_percent /= std::max(mapped, 1);
     int points = 0;
     for (const auto& line : map.stationary) {
         const SurfacePoint& first = line.front();

@@ -299,7 +299,9 @@ TEST(Program, DumpsWhatEveryStageMade) {
             EXPECT_EQ(stage("deformation")["stretch_sum"].size(), triangles);
         } else {
             EXPECT_EQ(stage("symmetry")["image"].size(), vertices);
-            EXPECT_NE(crosses, triangles);
+            if (mode == "exact") {
+                EXPECT_LT(crosses, triangles);
+            }
         }
         const auto extracted = stage("extraction");
         const auto relaxed = stage("relaxation");

@@ -243,7 +243,9 @@ std::vector<ComparedRecipe> comparison_recipes(const Options& base, bool has_lan
     paper.feature_angle = 0;
     paper.relax_rounds = 0;
     paper.alpha = default_alpha(CrossFieldMethod::paper);
-    paper.symmetry = SymmetryMode::field;
+    const bool is_symmetric =
+        has_landmarks || base.symmetry.value_or(SymmetryMode::none) != SymmetryMode::none;
+    paper.symmetry = is_symmetric ? SymmetryMode::field : SymmetryMode::none;
 
     Options animation_only = paper;
     animation_only.symmetry = SymmetryMode::none;
@@ -251,19 +253,18 @@ std::vector<ComparedRecipe> comparison_recipes(const Options& base, bool has_lan
     Options single_pose = animation_only;
     single_pose.alpha = 0;
 
-    std::vector<ComparedRecipe> recipes = {
+    return {
         {"single pose",
          "Mixed-integer quadrangulation of the reference frame alone: no animation, no symmetry.",
          single_pose},
         {"animation only",
          "The paper's baseline: its energy with the stretch of all frames, without symmetry.",
-         animation_only, true}};
-    // Without a symmetry the paper's method is its baseline.
-    if (has_landmarks || base.symmetry.value_or(SymmetryMode::none) != SymmetryMode::none) {
-        recipes.push_back({"paper", "The method of Du and Tu to the letter.", paper});
-    }
-    recipes.push_back({"kinequad", "Kinequad with its defaults.", base});
-    return recipes;
+         animation_only, true},
+        {"paper",
+         is_symmetric ? "The method of Du and Tu to the letter."
+                      : "The method of Du and Tu; without landmarks or --symmetry its baseline.",
+         paper},
+        {"kinequad", "Kinequad with its defaults.", base}};
 }
 
 ComparisonResult compare_methods(const FrameSource& source, const ComparisonOptions& options,

@@ -149,6 +149,73 @@ TEST(Program, RendersAPicture) {
     expect_refused(scratch, "render biped -o other.png --frame 4 -q", 2, "--frame 4");
 }
 
+TEST(Program, RefusesToDrawFilesOfOtherSurfaces) {
+    const ScratchFolder scratch;
+    write_content(scratch / "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const std::string image = R"("image": [[0, 1, 0, 0], [0, 0, 1, 0], [-1, 1, 0, 0]])";
+    const auto expect = [&](const std::string& option, const std::string& content, int code) {
+        SCOPED_TRACE(content);
+        write_content(scratch / "in.json", content);
+        expect_refused(scratch, "render one.obj -o out.png --size 32,32 -q " + option + " in.json",
+                       code, "in.json");
+    };
+    const std::string draw = "render one.obj -o out.png --size 32,32 -q ";
+    write_content(scratch / "fit.json", "{" + image + R"(, "stationary": [[[0, 0.5, 0.5, 0]]]})");
+    EXPECT_EQ(run_program(scratch, draw + "--symmetry fit.json").code, 0);
+    write_content(scratch / "field.json", R"({"streamlines": [[[0, 0.5, 0.5, 0]], []]})");
+    EXPECT_EQ(run_program(scratch, draw + "--field field.json").code, 0);
+
+    // A triangle that there is not: after the last, far after, before the first, no number.
+    for (const auto& [triangle, code] :
+         std::vector<std::pair<std::string, int>>{{"1", 4},
+                                                  {"99999999999", 4},
+                                                  {"18446744073709551615", 4},
+                                                  {"-1", 4},
+                                                  {"-7", 4},
+                                                  {"\"0\"", 3},
+                                                  {"0.5", 3},
+                                                  {"null", 3}}) {
+        const std::string lines = "[[[" + triangle + ", 0.5, 0.5, 0]]]";
+        expect("--symmetry", "{" + image + ", \"stationary\": " + lines + "}", code);
+        expect("--field", "{\"streamlines\": " + lines + "}", code);
+        // An image of -1 is none.
+        if (triangle == "-1") continue;
+        expect("--symmetry",
+               "{\"image\": [[" + triangle +
+                   ", 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], \"stationary\": []}",
+               code);
+    }
+    for (const char* lines :
+         {"7", "[7]", "[[7]]", "[[[0]]]", "[[[0, 1, 0]]]", "[[[0, 0.5, 0.5, \"0\"]]]",
+          "[[[0, 1, 0, 0, 0]]]", "[[[0, 3, -1, -1]]]", "[[[0, 1e300, 0, 0]]]", "[[{}]]", "null"}) {
+        expect("--symmetry", "{" + image + ", \"stationary\": " + lines + "}", 3);
+        expect("--field", std::string("{\"streamlines\": ") + lines + "}", 3);
+    }
+    expect("--symmetry", R"({"image": [], "stationary": []})", 4);
+    expect("--symmetry", "[]", 4);
+    expect("--field", "{", 3);
+}
+
+TEST(Program, RefusesToDrawAMirrorOfOtherQuads) {
+    const ScratchFolder scratch;
+    write_content(scratch / "two.obj",
+                  "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -1 0 0\nv -1 1 0\n"
+                  "f 1 2 3 4\nf 5 1 4 6\n");
+    const std::string draw = "render two.obj --size 32,32 -q --mirror in.json -o ";
+    write_content(scratch / "in.json", R"({"mirror": [0, 4, 5, 3, 1, 2]})");
+    EXPECT_EQ(run_program(scratch, draw + "out.png").code, 0);
+    for (const auto& [mirror, code] :
+         std::vector<std::pair<std::string, int>>{{"[0, 4, 5, 3, 1, 6]", 4},
+                                                  {"[0, 4, 5, 3, 1, -1]", 4},
+                                                  {"[0, 4, 5, 3, 1]", 4},
+                                                  {"[0, 4, 5, 3, 1, \"2\"]", 3},
+                                                  {"[0, 4, 5, 3, 1, 2.5]", 3},
+                                                  {"6", 3}}) {
+        write_content(scratch / "in.json", "{\"mirror\": " + mirror + "}");
+        expect_refused(scratch, draw + "other.png", code, "in.json");
+    }
+}
+
 TEST(Program, RunLeavesTheSequenceItsRecordAndTheBinding) {
     const ScratchFolder scratch;
     make_biped(scratch);

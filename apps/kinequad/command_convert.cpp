@@ -46,6 +46,14 @@ void write_sequence(const FrameSource& source, const std::filesystem::path& fold
     output.commit();
 }
 
+/// What frames in `folder` are called: as the folder is, however it is written.
+std::string stem_in(const std::filesystem::path& folder) {
+    std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
+    if (!path.has_filename()) path = path.parent_path();
+    const std::string stem = path.stem().string();
+    return stem.empty() ? "frame" : stem;
+}
+
 void convert(const ConvertCommand& command, const Context& context) {
     const std::unique_ptr<FrameSource> source = command.input_options.open(command.input);
     const std::filesystem::path output = command.output;
@@ -64,8 +72,8 @@ void convert(const ConvertCommand& command, const Context& context) {
                 "--frame",
                 command.output, command.input, source->frame_count()));
         const std::filesystem::path folder = output.has_filename() ? output : output.parent_path();
-        write_sequence(*source, folder, folder.stem().string(),
-                       *find_sequence_format(command.format), context);
+        write_sequence(*source, folder, stem_in(folder), *find_sequence_format(command.format),
+                       context);
     }
 }
 

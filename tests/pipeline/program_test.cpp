@@ -131,6 +131,23 @@ TEST(Program, ConvertsThereAndBackWithoutLoss) {
     expect_refused(scratch, "convert biped many.obj -q", 2, "--frame");
 }
 
+TEST(Program, NamesFramesByTheFolderHoweverItIsGiven) {
+    const ScratchFolder scratch;
+    write_content(scratch / "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const std::filesystem::path walk = scratch / "walk";
+    for (const char* here : {".", "./", "../walk", "../walk/.", "inner/.."}) {
+        SCOPED_TRACE(here);
+        std::filesystem::create_directories(walk / "inner");
+        const Outcome outcome = run_program(
+            scratch,
+            std::string("--version >.log; cd walk && " KINEQUAD_PROGRAM " convert ../one.obj -q ") +
+                here);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_EQ(names_in(walk), (std::vector<std::string>{"inner", "walk_0000.obj"}));
+        std::filesystem::remove_all(walk);
+    }
+}
+
 TEST(Program, WritesTheTrueMirrorOfACreature) {
     const ScratchFolder scratch;
     make_biped(scratch);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinequad/mesh/pose_search.h"
 #include "support/shapes.h"
@@ -77,6 +79,54 @@ TEST_F(SquareWalk, NoWalkBeginsOffTheLineOrAtACorner) {
                           std::abs(mesh_.V(v, 1) - mesh_.V.col(1).maxCoeff()) < 1e-9;
         EXPECT_EQ(walk_.is_passed(vertex), on_x != on_y) << v;
     }
+}
+
+TEST_F(SquareWalk, BeginsAtAVertexInWhicheverTriangleThatIsNamed) {
+    const double side = mesh_.V.col(0).maxCoeff() - mesh_.V.col(0).minCoeff();
+    int without_edge = 0;
+    for (int h = 0; h < 3 * topology_.triangle_count; ++h) {
+        const SurfacePoint vertex{h / 3, Vector3::Unit(h % 3)};
+        const SurfacePoint seated = walk_.seat(vertex);
+        EXPECT_EQ(place(seated), place(vertex));
+        if (!walk_.is_passed(vertex)) continue;
+        const bool is_stuck = walk_.walk(vertex, {0.1 * side, 0.1 * side}) == vertex;
+        EXPECT_EQ(seated == vertex, !is_stuck) << "what can walk is left as it is";
+        without_edge += is_stuck ? 1 : 0;
+        // One of the two goes along the side, whichever it is.
+        double way = 0;
+        for (const Vector3 move : {Vector3::UnitX(), Vector3::UnitY()}) {
+            const SurfacePoint end = walk_.walk(seated, step(seated, 0.1 * side * move));
+            way = std::max(way, (place(end) - place(vertex)).norm());
+        }
+        EXPECT_NEAR(way, 0.1 * side, 1e-4 * side);
+    }
+    EXPECT_GT(without_edge, 0);
+    const SurfacePoint middle{0, Vector3::Constant(1.0 / 3)};
+    EXPECT_EQ(walk_.seat(middle), middle);
+}
+
+TEST(LineWalk, EndsOnAClosedLineHoweverLongTheWay) {
+    // A strip around an axis: both of its boundaries are closed lines of `sides` edges of length 1.
+    constexpr int sides = 12;
+    Triangles F(2 * sides, 3);
+    for (int i = 0; i < sides; ++i) {
+        const int j = (i + 1) % sides;
+        F.row(2 * i) << i, j, sides + j;
+        F.row(2 * i + 1) << i, sides + j, sides + i;
+    }
+    const Topology topology = build_topology(F, 2 * sides);
+    IntrinsicMetric metric;
+    metric.edge_length = Eigen::VectorXd::Ones(topology.edge_count);
+    const LineWalk walk(topology, metric, boundary_edges(topology));
+    // The frame of a triangle has its first side as axis: triangle 0 begins with side 0 to 1.
+    for (const double way : {1e5, 1e9, std::numeric_limits<double>::infinity()}) {
+        const SurfacePoint end = walk.walk({0, Vector3(0.5, 0.5, 0)}, {way, 0});
+        EXPECT_EQ(end.triangle, 2 * (1000 % sides));
+        EXPECT_NEAR(end.barycentric[1], 1, 1e-5) << "at the end of the edge";
+    }
+    const SurfacePoint around = walk.walk({0, Vector3(0.5, 0.5, 0)}, {10 * sides + 0.25, 0});
+    EXPECT_EQ(around.triangle, 0);
+    EXPECT_NEAR(around.barycentric[1], 0.75, 1e-9);
 }
 
 TEST(PoseSearch, FindsThePointThatAllPosesTogetherAreNearestTo) {

@@ -209,6 +209,27 @@ TEST(RelaxPass, GoesOnToRightAnglesWhereSquaresAreOutOfReach) {
     EXPECT_LT(cost(), of_squares);
 }
 
+TEST(LetSlide, MovesAVertexOfALineInWhicheverTriangleThatIsNamed) {
+    Grid grid(landscape(12, flat), 6, 0);
+    // The third vertex of the lower side is one edge of the input off the place it should have.
+    constexpr std::size_t moved = 3;
+    int count = 0;
+    for (int corner = 0; corner < 3 * grid.topology.triangle_count; ++corner) {
+        grid.quads.vertex[moved] = {corner / 3, Vector3::Unit(corner % 3)};
+        const auto place = [&](const QuadMesh& quads) {
+            return position_of(quads.vertex[moved], grid.mesh.V, grid.mesh.F);
+        };
+        if ((place(grid.quads) - Vector3(5.0 / 12, 0, 0)).norm() > 1e-9) continue;
+        ++count;
+        SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+        sliding.let_slide(boundary_edges(grid.topology));
+        for (int pass = 0; pass < 40; ++pass) sliding.relax_pass(Aim::squares, 1, {});
+        EXPECT_NEAR(place(sliding.quads())[0], 0.5, 0.01) << "named by triangle " << corner / 3;
+        EXPECT_EQ(place(sliding.quads())[1], 0);
+    }
+    EXPECT_EQ(count, 3);
+}
+
 TEST(Hold, KeepsTheCornersOfAQuadUntilRelease) {
     const Grid grid(landscape(14, flat), 7, 0.3);
     SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});

@@ -10,6 +10,8 @@ namespace kinequad {
 namespace {
 
 constexpr double largest_bend = 50 * std::numbers::pi / 180;
+/// A long walk would go around a closed line over and over.
+constexpr int most_passed = 1000;
 
 }  // namespace
 
@@ -75,14 +77,32 @@ bool LineWalk::is_passed(const SurfacePoint& point) const {
     return true;
 }
 
-SurfacePoint LineWalk::walk(const SurfacePoint& start, const Vector2& move) const {
-    int e = edge_of(start);
-    // The direction of the edge has to be known in the frame of the move.
-    int here = -1;
-    for (int h = 3 * start.triangle; h < 3 * start.triangle + 3; ++h) {
-        if (e >= 0 && topology_.edge[at(h)] == e) here = h;
+/// The half-edge of the edge of a line that a point lies on, in its triangle; -1 where there is
+/// none.
+int LineWalk::half_edge_at(const SurfacePoint& point) const {
+    const int e = edge_of(point);
+    for (int h = 3 * point.triangle; h < 3 * point.triangle + 3; ++h) {
+        if (e >= 0 && topology_.edge[at(h)] == e) return h;
     }
+    return -1;
+}
+
+SurfacePoint LineWalk::seat(const SurfacePoint& point) const {
+    const int e = edge_of(point);
+    if (e < 0 || half_edge_at(point) >= 0) return point;
+    Eigen::Index corner = 0;
+    point.barycentric.maxCoeff(&corner);
+    const int v = topology_.origin[at(3 * point.triangle + corner)];
+    const int h = topology_.edge_half_edge[at(e)];
+    const int own = topology_.origin[at(h)] == v ? h : Topology::next(h);
+    return {own / 3, Vector3::Unit(own % 3)};
+}
+
+SurfacePoint LineWalk::walk(const SurfacePoint& start, const Vector2& move) const {
+    // The direction of the edge has to be known in the frame of the move.
+    const int here = half_edge_at(start);
     if (here < 0) return start;
+    int e = topology_.edge[at(here)];
     const auto corners = lay_out_triangle(side_lengths(topology_, metric_, start.triangle));
     const Vector2 direction =
         (corners.col(Topology::next(here) % 3) - corners.col(here % 3)).normalized();
@@ -91,12 +111,12 @@ SurfacePoint LineWalk::walk(const SurfacePoint& start, const Vector2& move) cons
     const double share = start.barycentric[Topology::next(here) % 3];
     double position = size() * (is_lower ? share : 1 - share);
     double left = move.dot(direction) * (is_lower ? 1 : -1);
-    while (position + left < 0 || position + left > size()) {
+    for (int passed = 0; position + left < 0 || position + left > size(); ++passed) {
         const int h = topology_.edge_half_edge[at(e)];
         const bool is_forward = left > 0;
         const int v = is_forward ? topology_.target(h) : topology_.origin[at(h)];
         const double way = std::abs(left) - (is_forward ? size() - position : position);
-        if (!is_passed_[at(v)] || !(way >= 0)) {
+        if (!is_passed_[at(v)] || !(way >= 0) || passed == most_passed) {
             left = is_forward ? size() - position : -position;
             break;
         }

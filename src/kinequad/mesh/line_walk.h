@@ -20,12 +20,17 @@ public:
     int edge_of(const SurfacePoint& point) const;
     /// Whether a walk may begin at a point: it lies on a line, but at none of its ends.
     bool is_passed(const SurfacePoint& point) const;
+    /// The same point, for a walk to begin at: a vertex of a line is named by a triangle with an
+    /// edge of the line there, whichever of its triangles named it. All others come back as given.
+    SurfacePoint seat(const SurfacePoint& point) const;
     /// The point reached by walking along the line from `start`, which lies on it, as far as
-    /// `move`, a vector in the frame of its triangle, goes along it.
+    /// `move`, a vector in the frame of its triangle, goes along it. The walk ends after passing
+    /// 1000 vertices. `start` comes back where its triangle has no edge of the line, see `seat`.
     SurfacePoint walk(const SurfacePoint& start, const Vector2& move) const;
 
 private:
     bool is_straight_at(int v) const;
+    int half_edge_at(const SurfacePoint& point) const;
 
     const Topology& topology_;
     const IntrinsicMetric& metric_;

@@ -87,6 +87,7 @@ void SlidingQuads::let_slide(const std::vector<int>& edges) {
         if (walk_->edge_of(quads_.vertex[v]) < 0) continue;
         slides_[v] = walk_->is_passed(quads_.vertex[v]) ? 1 : 0;
         stays_[v] = is_pinned_[v] = slides_[v] ? 0 : 1;
+        if (slides_[v]) quads_.vertex[v] = walk_->seat(quads_.vertex[v]);
     }
 }
 

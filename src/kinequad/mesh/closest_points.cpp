@@ -88,7 +88,9 @@ struct ClosestPoints::Search {
     }
 
     void build() {
-        device = rtcNewDevice(nullptr);
+        // Alone Embree would use all cores, whatever the context allows; callers that have several
+        // hierarchies build them in parallel.
+        device = rtcNewDevice("threads=1");
         if (device == nullptr) throw std::runtime_error("Embree cannot be started");
         scene = rtcNewScene(device);
         rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC);

@@ -10,7 +10,6 @@ void Session::add_options(CLI::App& command) {
                     "Most threads to use; 0: all of the machine. Results do not depend on it")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
-    command.add_option("--seed", seed_, "Seed of every random choice")->capture_default_str();
     CLI::Option* quiet = command.add_flag("--quiet,-q", quiet_, "No progress, warnings only");
     command.add_flag("--verbose,-v", verbose_, "Say what every stage finds")->excludes(quiet);
 }
@@ -21,7 +20,6 @@ Context Session::make_context() {
                                                     : Console::Detail::normal);
     Context context;
     context.threads = threads_;
-    context.seed = seed_;
     context.cancel = &interrupted_;
     context.progress = [this](std::string_view stage, double fraction) {
         console_->show_progress(stage, fraction);

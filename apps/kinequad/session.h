@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 #include <memory>
 
 #include "console.h"
@@ -18,9 +17,9 @@ class Session {
 public:
     explicit Session(const std::atomic<bool>& interrupted) : interrupted_(interrupted) {}
 
-    /// Adds --threads, --seed, --quiet and --verbose to a command.
+    /// Adds --threads, --quiet and --verbose to a command.
     void add_options(CLI::App& command);
-    /// What the library is given: threads, seed, the console and the interrupt flag. The session
+    /// What the library is given: threads, the console and the interrupt flag. The session
     /// has to outlive it.
     Context make_context();
     /// Takes the progress bar away, before results are printed.
@@ -29,7 +28,6 @@ public:
 private:
     const std::atomic<bool>& interrupted_;
     int threads_ = 0;
-    std::uint64_t seed_ = 1;
     bool quiet_ = false;
     bool verbose_ = false;
     std::unique_ptr<Console> console_;

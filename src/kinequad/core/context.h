@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 #include <functional>
 #include <string_view>
 
@@ -11,14 +10,12 @@ namespace kinequad {
 enum class LogLevel { debug, info, warning };
 
 /// What a computation is given beside its data: thread limit, where progress and log lines go,
-/// whether the user wants it to stop, and the seed of everything random. Nothing is global.
+/// and whether the user wants it to stop. Nothing is global and nothing random.
 /// Copies share the sinks and the cancellation flag.
 struct Context {
     /// Number of threads a stage may use; 0 means all that the machine has. Results do not depend
     /// on it.
     int threads = 0;
-    /// Seed of every random choice.
-    std::uint64_t seed = 1;
     /// Receives the name of a stage and the fraction of it that is done, in [0, 1]. May be empty.
     std::function<void(std::string_view stage, double fraction)> progress;
     /// Receives one log line without a newline at its end. May be empty.

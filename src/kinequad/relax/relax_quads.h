@@ -41,10 +41,13 @@ struct RelaxView {
 };
 
 /// Slides the vertices of a quad mesh over the surface so that quads come closer to squares in all
-/// sampled frames at once, and unfolds folded ones. Connectivity stays, and so do
-/// boundary vertices, but along `line_edges`. Every
-/// move lowers the sum over the sampled frames and the quads around the vertex of squared corner
-/// cosines plus a barrier against folding, but for those that cover an extremity or unfold a quad.
+/// sampled frames at once, and unfolds folded ones. Connectivity stays, and so do boundary
+/// vertices, but along `line_edges`.
+///
+/// Passes towards squares and right angles lower, move by move, the sum over the sampled frames and
+/// the quads around the vertex of squared corner cosines, a barrier against folding and a little
+/// for the lengths of sides. What unfolds quads, covers extremities or brings quads and input
+/// closer together in other ways may raise it.
 ///
 /// `views` are animations of the same triangles: one, or the two sides of a symmetric surface. Each
 /// reference counts about a quarter as much as the frames that go with it. docs/relaxation.md

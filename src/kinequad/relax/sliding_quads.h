@@ -20,7 +20,8 @@ inline constexpr FoldBarrier relaxing_barrier;
 /// rows evenly apart.
 inline constexpr double spacing_weight = 0.1;
 
-/// Length that no move gives an edge in any frame, in mean lengths.
+/// Length beyond which neither passes nor `close_gaps` make the longest edge at a vertex longer in
+/// any frame, in mean lengths.
 inline constexpr double most_stretch = 3;
 
 /// Distances between quads and input below this are near, in mean lengths of the quads' edges.
@@ -55,8 +56,10 @@ public:
     /// Moves every vertex once towards the `aim` of the quads around it, where that lowers their
     /// cost and `spacing_weight` times the squares of their sides, over all frames. Returns the
     /// number of moves.
-    /// No move takes a quad farther than `distance_limit` (units of the input) from the input in a
-    /// reference.
+    ///
+    /// Only quads that are farther than half of `distance_limit` (units of the input) from the
+    /// input in a reference as the pass begins are watched: no move takes one of these farther than
+    /// the limit, or than the farthest of them around the vertex is already.
     int relax_pass(Aim aim, double distance_limit, const Context& context);
 
     /// Tries moves of the vertices up to `reach` quads around every quad whose scaled Jacobian in

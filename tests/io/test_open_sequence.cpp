@@ -263,6 +263,17 @@ TEST(MemorySequence, HandsOutItsFramesAndChecksThem) {
     expect_input_error([&] { MemorySequence(outside, {V}); }, InputFault::mesh, {"triangle 0"});
 }
 
+TEST(EvenlyChosenFrames, AreSpreadFromTheFirstOn) {
+    using Frames = std::vector<int>;
+    EXPECT_EQ(evenly_chosen_frames(12, 3), (Frames{0, 4, 8}));
+    EXPECT_EQ(evenly_chosen_frames(10, 4), (Frames{0, 2, 5, 7}));
+    EXPECT_EQ(evenly_chosen_frames(3, 8), (Frames{0, 1, 2}));
+    EXPECT_EQ(evenly_chosen_frames(5, 1), Frames{0});
+    EXPECT_EQ(evenly_chosen_frames(5, 0), Frames{});
+    EXPECT_EQ(evenly_chosen_frames(2'000'000'000, 1000).back(), 1'998'000'000)
+        << "products of frames need more than 32 bits";
+}
+
 TEST(FrameDigest, DependsOnContentAndNotOnTheOrderOfCalls) {
     const Positions V = positions_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
     Positions W = V;

@@ -446,6 +446,27 @@ TEST(RelaxQuads, SettlesInFramesBetweenTheSampledOnes) {
     EXPECT_LT(farthest(12), 0.5 / 6);
 }
 
+TEST(RelaxQuads, LooksAtTheFirstFrameWhateverTheReference) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    Positions flattened = grid.mesh.V;
+    flattened(tip, 2) = 0;
+    // The spike is in the first frame alone.
+    std::vector<Positions> frames(12, flattened);
+    frames[0] = grid.mesh.V;
+    const MemorySequence sequence(grid.mesh.F, frames, flattened);
+    for (const std::optional<int> reference :
+         {std::optional<int>(4), std::optional<int>(5), std::optional<int>()}) {
+        Grid after = grid;
+        after.quads = relax_quads(grid.quads, {{sequence, flattened}}, grid.topology, grid.metric,
+                                  {.sampled_frames = 3, .reference_frame = reference}, {});
+        grid.expect_kept(after.quads);
+        const std::vector<double> distances = after.sliding({{grid.mesh.V, 1}}).distances({});
+        EXPECT_LT(*std::max_element(distances.begin(), distances.end()), 0.5 / 6)
+            << "reference " << reference.value_or(-1);
+    }
+}
+
 TEST(RelaxQuads, ImprovesAllFramesTogetherAndKeepsTheMesh) {
     const Grid grid(landscape(14, hill), 7, 0.45);
     std::vector<Positions> frames;

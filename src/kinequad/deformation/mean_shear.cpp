@@ -36,12 +36,11 @@ MetricComparison compare_metrics(const FrameSource& frames, const Topology& topo
                                  const IntrinsicMetric& mean, const IntrinsicMetric& reference,
                                  const Context& context) {
     constexpr int most_frames = 24;
-    const int count = std::min(most_frames, frames.frame_count());
+    const std::vector<int> chosen = evenly_chosen_frames(frames.frame_count(), most_frames);
+    const auto count = static_cast<double>(chosen.size());
     MetricComparison comparison;
-    for (int i = 0; i < count; ++i) {
+    for (const int frame : chosen) {
         context.check_cancelled();
-        const auto frame =
-            static_cast<int>(static_cast<std::int64_t>(i) * frames.frame_count() / count);
         const IntrinsicMetric here = metric_of(topology, frames.read_frame(frame));
         comparison.gain +=
             (mean_shear(topology, reference, here) - mean_shear(topology, mean, here)) / count;

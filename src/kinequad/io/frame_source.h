@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "kinequad/core/types.h"
 #include "kinequad/io/polygons.h"
@@ -40,5 +41,9 @@ public:
 /// Throws `InputError` (mesh), naming the frame, where all vertices of `V`, the frame `frame` of
 /// `frames`, are in one place: nothing can be measured there relative to its size.
 void require_extent(const Positions& V, int frame, const FrameSource& frames);
+
+/// `most` of `frame_count` frames, evenly chosen from frame 0 on, in ascending order; all of them
+/// where there are no more.
+std::vector<int> evenly_chosen_frames(int frame_count, int most);
 
 }  // namespace kinequad

@@ -25,21 +25,19 @@ constexpr int most_unfolding_passes = 16;
 constexpr int most_fitting_rounds = 10;
 constexpr int most_rounds_in_vain = 4;
 
-/// The references, then the other frames: `most` of each view at most, evenly chosen.
+/// The references, then `most` frames of each view, evenly chosen, but for the reference.
 std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views, int most,
                                         const RelaxOptions& options) {
     std::vector<SampledFrame> sampled;
     sampled.reserve(views.size());
-    const auto wanted = [&](const RelaxView& view) {
-        return std::clamp(most, 1, view.frames.frame_count());
+    const auto chosen = [&](const RelaxView& view) {
+        return evenly_chosen_frames(view.frames.frame_count(), std::max(most, 1));
     };
     for (const RelaxView& view : views) {
-        sampled.push_back({view.reference, 0.25 * wanted(view) + 0.75});
+        sampled.push_back({view.reference, 0.25 * static_cast<double>(chosen(view).size()) + 0.75});
     }
     for (const RelaxView& view : views) {
-        for (int i = 1; i < wanted(view); ++i) {
-            const int frame =
-                static_cast<int>(static_cast<long>(i) * view.frames.frame_count() / wanted(view));
+        for (const int frame : chosen(view)) {
             if (options.reference_frame == frame) continue;
             sampled.push_back({view.frames.read_frame(frame), 1});
         }

@@ -11,8 +11,8 @@
 namespace kinequad {
 
 struct RelaxOptions {
-    /// Frames of each view whose quads are looked at, evenly chosen, the reference among them. At
-    /// least 1.
+    /// Frames of each view whose quads are looked at, evenly chosen, beside the reference where
+    /// that is none of them. At least 1.
     int sampled_frames = 8;
     /// Frames of each view in which gaps are closed once more at the end, so that poses between the
     /// sampled ones count; nothing happens where they are no more than those.

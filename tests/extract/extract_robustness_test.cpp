@@ -153,6 +153,13 @@ TEST(ExtractRobustness, ArraysOfTheWrongSize) {
     map = valid;
     map.mesh.F.row(0).swap(map.mesh.F.row(1));
     EXPECT_THROW(extract_quads(map, Context{}), GridMapError);
+    map = valid;
+    map.is_line.assign(map.corner.size(), 0);
+    EXPECT_NO_THROW(extract_quads(map, Context{}));
+    map.is_line.pop_back();
+    EXPECT_THROW(extract_quads(map, Context{}), GridMapError);
+    map.is_line.clear();
+    EXPECT_NO_THROW(extract_quads(map, Context{})) << "there need be no lines";
 }
 
 TEST(ExtractRobustness, BadRefinementIsFoundByTheVerifier) {

@@ -182,7 +182,7 @@ private:
     IntegerPoints points_;
 };
 
-/// The point at `where` in a range sorted along `axis`, then across it; -1 where there is none.
+/// The point at `where` in a range sorted by `before`; -1 where there is none.
 template <class Before>
 int search(const IntegerPoints& points, PointRange range, Coordinate where, Before before) {
     const auto begin = points.point.begin();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -63,21 +62,18 @@ MirrorReport verify_mirror(const QuadMesh& quads) {
     std::vector<int> chain_edges(mirror.size(), 0);
     std::vector<char> is_on_boundary(mirror.size(), 0);
     std::set<std::array<int, 4>> known;
-    std::map<std::pair<int, int>, int> quad_of_side;
+    std::set<std::pair<int, int>> sides;
     for (Eigen::Index q = 0; q < quads.Q.rows(); ++q) {
         known.insert(from_lowest({quads.Q(q, 0), quads.Q(q, 1), quads.Q(q, 2), quads.Q(q, 3)}));
-        for (int k = 0; k < 4; ++k) {
-            quad_of_side[{quads.Q(q, k), quads.Q(q, (k + 1) % 4)}] = static_cast<int>(q);
-        }
+        for (int k = 0; k < 4; ++k) sides.emplace(quads.Q(q, k), quads.Q(q, (k + 1) % 4));
     }
     for (Eigen::Index q = 0; q < quads.Q.rows(); ++q) {
         std::array<int, 4> image{};
         for (int k = 0; k < 4; ++k) image[at(k)] = mirror[at(quads.Q(q, (4 - k) % 4))];
         if (known.count(from_lowest(image)) == 0) ++report.broken_quads;
     }
-    for (const auto& [side, quad] : quad_of_side) {
-        const auto [a, b] = side;
-        const bool has_twin = quad_of_side.count({b, a}) != 0;
+    for (const auto& [a, b] : sides) {
+        const bool has_twin = sides.count({b, a}) != 0;
         if (!has_twin) is_on_boundary[at(a)] = is_on_boundary[at(b)] = 1;
         if (mirror[at(a)] == a && mirror[at(b)] == b && has_twin) ++chain_edges[at(a)];
     }

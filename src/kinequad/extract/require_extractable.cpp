@@ -32,6 +32,7 @@ void check_sizes(const GridMap& map) {
         std::equal(map.topology.origin.begin(), map.topology.origin.end(), map.mesh.F.data(),
                    map.mesh.F.data() + map.mesh.F.size()) &&
         map.corner.size() == 3 * triangles && map.transition.size() == 3 * triangles &&
+        (map.is_line.empty() || map.is_line.size() == 3 * triangles) &&
         map.mesh.parent.size() == triangles && map.mesh.barycentric.rows() == map.mesh.F.size();
     if (!fits) throw GridMapError("the arrays of the grid map do not belong to one mesh");
 }

@@ -6,6 +6,7 @@
 
 #include "kinequad/core/error.h"
 #include "kinequad/core/index.h"
+#include "kinequad/core/sort_unique.h"
 
 namespace kinequad::extraction {
 namespace {
@@ -26,9 +27,8 @@ bool has_parallel_edges(const Cells& cells) {
             if (edges.back().first == edges.back().second) return true;
         }
     }
-    std::sort(edges.begin(), edges.end());
-    const auto distinct = std::unique(edges.begin(), edges.end()) - edges.begin();
-    return static_cast<std::size_t>(distinct) < cells.edge_count;
+    sort_unique(edges);
+    return edges.size() < cells.edge_count;
 }
 
 std::vector<WantedQuad> gather_quads(const Cells& doubled) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "kinequad/core/disjoint_sets.h"
 #include "kinequad/core/index.h"
 #include "kinequad/extract/split_quad.h"
 
@@ -15,19 +16,14 @@ class Splitting {
 public:
     explicit Splitting(const Cells& doubled)
         : doubled_(doubled), cells_(gather_quads(doubled)), row_(doubled.mesh.vertex.size()) {
-        for (std::size_t v = 0; v < row_.size(); ++v) row_[v] = static_cast<int>(v);
         for (const WantedQuad& cell : cells_) {
-            for (const std::size_t k : {0U, 1U}) {
-                const auto [low, high] =
-                    std::minmax({root(cell.middle[k]), root(cell.middle[k + 2])});
-                row_[at(high)] = low;
-            }
+            for (const std::size_t k : {0U, 1U}) row_.unite(cell.middle[k], cell.middle[k + 2]);
         }
-        size_.assign(row_.size(), 0);
+        size_.assign(doubled_.mesh.vertex.size(), 0);
         for (const WantedQuad& cell : cells_) {
-            for (const int middle : cell.middle) ++size_[at(root(middle))];
+            for (const int middle : cell.middle) ++size_[at(row_.find(middle))];
         }
-        is_split_.assign(row_.size(), 0);
+        is_split_.assign(doubled_.mesh.vertex.size(), 0);
     }
 
     QuadMesh run() {
@@ -37,11 +33,6 @@ public:
     }
 
 private:
-    int root(int middle) {
-        while (row_[at(middle)] != middle) middle = row_[at(middle)] = row_[at(row_[at(middle)])];
-        return middle;
-    }
-
     /// An edge that stands for itself: whole, or inside a quad that is split.
     struct Edge {
         std::pair<int, int> ends;
@@ -55,14 +46,14 @@ private:
         std::vector<Edge> edges;
         for (const WantedQuad& cell : cells_) {
             for (std::size_t k = 0; k < 4; ++k) {
-                const int row = root(cell.middle[k]);
+                const int row = row_.find(cell.middle[k]);
                 if (is_split_[at(row)] != 0) continue;
                 edges.push_back(
                     {std::minmax({cell.corner[k], cell.corner[(k + 1) % 4]}), cell.middle[k], row});
             }
             for (const std::size_t k : {0U, 1U}) {
-                const int across = root(cell.middle[k + 1]);
-                if (is_split_[at(root(cell.middle[k]))] == 0 || is_split_[at(across)] != 0)
+                const int across = row_.find(cell.middle[k + 1]);
+                if (is_split_[at(row_.find(cell.middle[k]))] == 0 || is_split_[at(across)] != 0)
                     continue;
                 edges.push_back(
                     {std::minmax({cell.middle[k], cell.middle[k + 2]}), cell.centre, across});
@@ -91,8 +82,8 @@ private:
     QuadMesh assemble() {
         std::vector<std::array<int, 4>> quads;
         for (const WantedQuad& cell : cells_) {
-            const SplitEdges edges = {is_split_[at(root(cell.middle[0]))] != 0,
-                                      is_split_[at(root(cell.middle[1]))] != 0};
+            const SplitEdges edges = {is_split_[at(row_.find(cell.middle[0]))] != 0,
+                                      is_split_[at(row_.find(cell.middle[1]))] != 0};
             const auto pieces = split_quad(cell.corner, cell.middle, cell.centre, edges);
             quads.insert(quads.end(), pieces.begin(), pieces.end());
         }
@@ -101,7 +92,7 @@ private:
 
     const Cells& doubled_;
     std::vector<WantedQuad> cells_;
-    std::vector<int> row_;
+    DisjointSets row_;  ///< middles of edges: those that one row crosses
     std::vector<int> size_;
     std::vector<char> is_split_;
 };

@@ -5,33 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <string>
 
+#include "kinequad/core/disjoint_sets.h"
 #include "kinequad/core/error.h"
 #include "kinequad/core/index.h"
 
 namespace kinequad {
 namespace {
-
-/// Disjoint sets of the numbers below `count`.
-class Sets {
-public:
-    explicit Sets(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), 0);
-    }
-    int find(int i) {
-        while (parent_[at(i)] != i) {
-            parent_[at(i)] = parent_[at(parent_[at(i)])];
-            i = parent_[at(i)];
-        }
-        return i;
-    }
-    void unite(int i, int j) { parent_[at(find(i))] = find(j); }
-
-private:
-    std::vector<int> parent_;
-};
 
 bool is_valid_quad(const Quads& Q, int q, int vertex_count) {
     for (int k = 0; k < 4; ++k) {
@@ -104,9 +85,9 @@ QuadMeshReport verify_quad_mesh(const QuadMesh& mesh, const Topology& input_topo
 
     // Corners of one vertex are in one set where a fan of quads joins them; vertices of one
     // boundary loop are in one set.
-    Sets quads(at(quad_count));
-    Sets corners(at(4 * quad_count));
-    Sets loops(at(vertex_count));
+    DisjointSets quads(at(quad_count));
+    DisjointSets corners(at(4 * quad_count));
+    DisjointSets loops(at(vertex_count));
     std::vector<bool> is_on_boundary(at(vertex_count), false);
     const std::vector<Side> sides = sorted_sides(Q, is_valid);
     for (std::size_t i = 0; i < sides.size();) {

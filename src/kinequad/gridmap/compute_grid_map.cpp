@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "kinequad/core/sort_unique.h"
 #include "kinequad/gridmap/map_component.h"
 #include "kinequad/gridmap/map_components.h"
 
@@ -49,8 +50,7 @@ std::vector<int> features_on_lines(const GridMap& map, const Topology& topology)
         const int side = side_of_parent(map.mesh, static_cast<int>(h));
         if (side >= 0) edges.push_back(topology.edge[static_cast<std::size_t>(side)]);
     }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    sort_unique(edges);
     return edges;
 }
 

@@ -1,39 +1,16 @@
 #include "kinequad/measure/mesh_counts.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 #include <vector>
 
+#include "kinequad/core/disjoint_sets.h"
+#include "kinequad/core/index.h"
+#include "kinequad/core/sort_unique.h"
 #include "kinequad/measure/triangulation.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-/// Sets that merge; the lowest member names a set.
-class DisjointSets {
-public:
-    explicit DisjointSets(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), 0);
-    }
-    int find(int i) {
-        while (parent_[index(i)] != i) {
-            parent_[index(i)] = parent_[index(parent_[index(i)])];
-            i = parent_[index(i)];
-        }
-        return i;
-    }
-    void merge(int i, int j) {
-        i = find(i);
-        j = find(j);
-        parent_[index(std::max(i, j))] = std::min(i, j);
-    }
-
-private:
-    std::vector<int> parent_;
-};
 
 /// A side of a face: from the vertex of corner `corner` to that of corner `next`.
 struct Side {
@@ -48,12 +25,12 @@ std::vector<Side> sorted_sides(const Polygons& faces) {
     std::vector<Side> sides;
     sides.reserve(faces.corners.size());
     for (int f = 0; f < faces.count(); ++f) {
-        const int first = faces.offset[index(f)];
+        const int first = faces.offset[at(f)];
         for (int k = 0; k < degree_of(faces, f); ++k) {
             const int corner = first + k;
             const int next = first + (k + 1) % degree_of(faces, f);
-            const int a = faces.corners[index(corner)];
-            const int b = faces.corners[index(next)];
+            const int a = faces.corners[at(corner)];
+            const int b = faces.corners[at(next)];
             sides.push_back({std::min(a, b), std::max(a, b), corner, next, a < b});
         }
     }
@@ -65,15 +42,14 @@ std::vector<Side> sorted_sides(const Polygons& faces) {
 
 int count_duplicates(const Polygons& faces) {
     std::vector<std::vector<int>> keys;
-    keys.reserve(index(faces.count()));
+    keys.reserve(at(faces.count()));
     for (int f = 0; f < faces.count(); ++f) {
         std::vector<int>& key = keys.emplace_back();
         for (int k = 0; k < degree_of(faces, f); ++k) key.push_back(vertex_of(faces, f, k));
         std::sort(key.begin(), key.end());
     }
-    std::sort(keys.begin(), keys.end());
-    const auto last = std::unique(keys.begin(), keys.end());
-    return static_cast<int>(keys.end() - last);
+    sort_unique(keys);
+    return faces.count() - static_cast<int>(keys.size());
 }
 
 void count_faces(const Polygons& faces, MeshCounts& counts) {
@@ -92,18 +68,18 @@ MeshCounts count_mesh(const Polygons& faces, int vertex_count) {
     MeshCounts counts;
     count_faces(faces, counts);
 
-    const std::size_t n = index(vertex_count);
+    const std::size_t n = at(vertex_count);
     std::vector<int> valence(n, 0);
     std::vector<bool> is_used(n, false);
     std::vector<bool> is_boundary(n, false);
-    for (const int v : faces.corners) is_used[index(v)] = true;
+    for (const int v : faces.corners) is_used[at(v)] = true;
     DisjointSets parts(n);
     DisjointSets boundary(n);
     DisjointSets fans(faces.corners.size());
 
     const std::vector<Side> sides = sorted_sides(faces);
     const auto corner_at = [&](const Side& side, int v) {
-        return faces.corners[index(side.corner)] == v ? side.corner : side.next;
+        return faces.corners[at(side.corner)] == v ? side.corner : side.next;
     };
     for (std::size_t i = 0; i < sides.size();) {
         std::size_t end = i + 1;
@@ -113,19 +89,19 @@ MeshCounts count_mesh(const Polygons& faces, int vertex_count) {
         }
         const auto [low, high, corner, next, is_forward] = sides[i];
         ++counts.edges;
-        ++valence[index(low)];
-        ++valence[index(high)];
-        parts.merge(low, high);
+        ++valence[at(low)];
+        ++valence[at(high)];
+        parts.unite(low, high);
         if (end - i == 1) {
             ++counts.boundary_edges;
-            is_boundary[index(low)] = is_boundary[index(high)] = true;
-            boundary.merge(low, high);
+            is_boundary[at(low)] = is_boundary[at(high)] = true;
+            boundary.unite(low, high);
         }
         if (end - i == 2 && is_forward == sides[i + 1].is_forward) ++counts.misoriented_edges;
         if (end - i > 2) ++counts.non_manifold_edges;
         for (std::size_t j = i + 1; j < end; ++j) {
             for (const int v : {low, high}) {
-                fans.merge(corner_at(sides[j - 1], v), corner_at(sides[j], v));
+                fans.unite(corner_at(sides[j - 1], v), corner_at(sides[j], v));
             }
         }
         i = end;
@@ -133,15 +109,15 @@ MeshCounts count_mesh(const Polygons& faces, int vertex_count) {
 
     std::vector<int> fan_count(n, 0);
     for (int c = 0; c < static_cast<int>(faces.corners.size()); ++c) {
-        if (fans.find(c) == c) ++fan_count[index(faces.corners[index(c)])];
+        if (fans.find(c) == c) ++fan_count[at(faces.corners[at(c)])];
     }
     for (int v = 0; v < vertex_count; ++v) {
-        if (!is_used[index(v)]) continue;
+        if (!is_used[at(v)]) continue;
         ++counts.vertices;
-        if (valence[index(v)] != (is_boundary[index(v)] ? 3 : 4)) ++counts.irregular_vertices;
-        if (fan_count[index(v)] > 1) ++counts.non_manifold_vertices;
+        if (valence[at(v)] != (is_boundary[at(v)] ? 3 : 4)) ++counts.irregular_vertices;
+        if (fan_count[at(v)] > 1) ++counts.non_manifold_vertices;
         if (parts.find(v) == v) ++counts.components;
-        if (is_boundary[index(v)] && boundary.find(v) == v) ++counts.boundary_loops;
+        if (is_boundary[at(v)] && boundary.find(v) == v) ++counts.boundary_loops;
     }
     counts.euler_characteristic = counts.vertices - counts.edges + counts.faces;
     return counts;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kinequad/core/disjoint_sets.h"
 #include "kinequad/core/index.h"
 #include "kinequad/mesh/topology.h"
 
@@ -79,30 +80,20 @@ std::vector<std::array<int, 2>> find_duplicate_triangles(const Triangles& F,
 }
 
 FanCorners group_corners(const Triangles& F, const std::vector<int>& triangles) {
-    FanCorners corners;
-    std::vector<int>& fan = corners.fan;
-    fan.assign(at(static_cast<int>(F.size())), -1);
-    for (const int t : triangles) {
-        for (int h = 3 * t; h < 3 * t + 3; ++h) fan[at(h)] = h;
-    }
-    const auto root = [&](int h) {
-        while (fan[at(h)] != h) h = fan[at(h)] = fan[at(fan[at(h)])];
-        return h;
-    };
+    DisjointSets fans(at(F.size()));
     for (const EdgeFan& edge : find_edge_fans(F, triangles)) {
         for (const int vertex : {edge.a, edge.b}) {
             const auto corner_at = [&](int h) {
                 return origin(F, h) == vertex ? h : Topology::next(h);
             };
             const int first = corner_at(edge.half_edges.front());
-            for (const int h : edge.half_edges) {
-                const auto [low, high] = std::minmax({root(first), root(corner_at(h))});
-                fan[at(high)] = low;
-            }
+            for (const int h : edge.half_edges) fans.unite(first, corner_at(h));
         }
     }
+    FanCorners corners;
+    corners.fan.assign(at(F.size()), -1);
     for (const int t : triangles) {
-        for (int h = 3 * t; h < 3 * t + 3; ++h) fan[at(h)] = root(h);
+        for (int h = 3 * t; h < 3 * t + 3; ++h) corners.fan[at(h)] = fans.find(h);
     }
     return corners;
 }

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "kinequad/core/index.h"
+#include "kinequad/core/sort_unique.h"
 #include "kinequad/mesh/check_mesh.h"
 #include "kinequad/mesh/edge_fans.h"
 
@@ -167,8 +168,7 @@ private:
                 if (F_(t, k) != v) neighbours.push_back(F_(t, k));
             }
         }
-        std::sort(neighbours.begin(), neighbours.end());
-        neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+        sort_unique(neighbours);
         return neighbours;
     }
 

@@ -8,6 +8,7 @@
 
 #include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
+#include "kinequad/core/sort_unique.h"
 #include "kinequad/mesh/closest_point_on_triangle.h"
 #include "kinequad/relax/sliding_quads.h"
 
@@ -24,11 +25,6 @@ double squared_distance_to_quad(const Vector3& point, const QuadCorners& p) {
     return std::min(
         closest_point_on_triangle(point, p[k], p[k + 1], p[k + 2]).squared_distance,
         closest_point_on_triangle(point, p[k], p[k + 2], p[(k + 3) % 4]).squared_distance);
-}
-
-void sort_once(std::vector<int>& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 }  // namespace
@@ -89,13 +85,13 @@ public:
     Surroundings surroundings(int v) const {
         Surroundings around;
         for (const int c : sliding_.corners_of(v)) around.quads.push_back(c / 4);
-        sort_once(around.quads);
+        sort_unique(around.quads);
         for (const int q : around.quads) {
             for (const int w : sliding_.vertices_around(q, 0)) {
                 for (const int c : sliding_.corners_of(w)) around.patch.push_back(c / 4);
             }
         }
-        sort_once(around.patch);
+        sort_unique(around.patch);
         std::stable_partition(around.patch.begin(), around.patch.end(), [&](int q) {
             return std::binary_search(around.quads.begin(), around.quads.end(), q);
         });

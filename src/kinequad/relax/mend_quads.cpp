@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kinequad/core/index.h"
+#include "kinequad/core/sort_unique.h"
 #include "kinequad/relax/sliding_quads.h"
 
 namespace kinequad {
@@ -58,8 +59,7 @@ std::vector<int> SlidingQuads::vertices_around(int quad, int reach) const {
                 wider.insert(wider.end(), {neighbour(c, 1), neighbour(c, 2), neighbour(c, 3)});
             }
         }
-        std::sort(wider.begin(), wider.end());
-        wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
+        sort_unique(wider);
         around = std::move(wider);
     }
     std::sort(around.begin(), around.end());
@@ -73,8 +73,7 @@ std::vector<int> SlidingQuads::quads_around(int quad, int reach) const {
             for (const int c : corners_of(v)) around.push_back(c / 4);
         }
     }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
+    sort_unique(around);
     return around;
 }
 

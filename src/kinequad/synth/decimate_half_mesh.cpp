@@ -4,6 +4,7 @@
 #include <queue>
 #include <tuple>
 
+#include "kinequad/core/sort_unique.h"
 #include "kinequad/synth/half_mesh.h"
 
 namespace kinequad::synth_detail {
@@ -87,8 +88,7 @@ private:
                 if (w != v) found.push_back(w);
             }
         }
-        std::sort(found.begin(), found.end());
-        found.erase(std::unique(found.begin(), found.end()), found.end());
+        sort_unique(found);
         return found;
     }
 

@@ -10,6 +10,7 @@
 
 #include "kinequad/core/parallel.h"
 #include "kinequad/mesh/closest_point_on_triangle.h"
+#include "kinequad/mesh/triangle_mesh.h"
 
 namespace kinequad {
 namespace {
@@ -31,7 +32,7 @@ struct Piece {
     Found at_center;
     double bound;  ///< no point of the piece is farther from the target
 
-    Vector3 center() const { return (corner[0] + corner[1] + corner[2]) / 3; }
+    Vector3 center() const { return triangle_centre(corner[0], corner[1], corner[2]); }
 };
 
 /// No point of the triangle `a`, `b`, `c` is farther than this from the nearest of its corners.
@@ -134,7 +135,7 @@ private:
         const Vector3 c = vertex(t, 2);
         const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
         if (2 * longest <= 3 * spacing_) return 1;
-        const Vector3 center = (a + b + c) / 3;
+        const Vector3 center = triangle_centre(a, b, c);
         if (std::max({reach_of_corners(a, b, center), reach_of_corners(b, c, center),
                       reach_of_corners(c, a, center)}) <= spacing_) {
             return 1;
@@ -208,7 +209,7 @@ private:
             at_corner[k] = {vertex_distance_[v], hints[v]};
         }
         const auto visit = [&](const Vector3& a, const Vector3& b, const Vector3& c) {
-            const Found found = find((a + b + c) / 3, hint);
+            const Found found = find(triangle_centre(a, b, c), hint);
             hint = found.triangle;
             sum += found.distance;
             block.largest = std::max(block.largest, found.distance);

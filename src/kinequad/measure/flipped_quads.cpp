@@ -5,16 +5,10 @@
 
 #include "kinequad/core/parallel.h"
 #include "kinequad/measure/triangulation.h"
+#include "kinequad/mesh/triangle_mesh.h"
 
 namespace kinequad {
 namespace {
-
-Vector3 triangle_normal(const ClosestPoints& surface, int t) {
-    const Positions& V = surface.positions();
-    const auto corners = surface.triangles().row(t);
-    const Vector3 a = V.row(corners[0]).transpose();
-    return (V.row(corners[1]).transpose() - a).cross(V.row(corners[2]).transpose() - a);
-}
 
 /// Product of the normals of a quad and of the input below it; its sign says whether they agree.
 double agreement(const Positions& X, const Polygons& faces, int f, const ClosestPoints& input,
@@ -22,7 +16,8 @@ double agreement(const Positions& X, const Polygons& faces, int f, const Closest
     const auto corner = [&](int k) -> Vector3 { return X.row(vertex_of(faces, f, k)).transpose(); };
     const Vector3 center = (corner(0) + corner(1) + corner(2) + corner(3)) / 4;
     const Vector3 normal = (corner(2) - corner(0)).cross(corner(3) - corner(1));
-    return normal.dot(triangle_normal(input, input.find(center, hint).point.triangle));
+    const int below = input.find(center, hint).point.triangle;
+    return normal.dot(triangle_area_vector(input.positions(), input.triangles(), below));
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kinequad/core/index.h"
+#include "kinequad/mesh/triangle_mesh.h"
+
 namespace kinequad {
 namespace {
 
@@ -30,8 +33,8 @@ bool crosses(const Vector3& p, const Vector3& q, const std::array<Vector3, 3>& t
 class Search {
 public:
     Search(const Triangles& F, const Positions& V, int most, const Context& context)
-        : F_(F), V_(V), most_(static_cast<std::size_t>(most)), context_(context) {
-        order_.resize(static_cast<std::size_t>(F.rows()));
+        : F_(F), V_(V), most_(at(most)), context_(context) {
+        order_.resize(at(F.rows()));
         std::iota(order_.begin(), order_.end(), 0);
         if (!order_.empty()) build(0, static_cast<int>(order_.size()));
     }
@@ -60,11 +63,11 @@ private:
         Box box;
         Box centres;
         for (int i = begin; i < end; ++i) {
-            const int t = order_[static_cast<std::size_t>(i)];
+            const int t = order_[at(i)];
             for (int k = 0; k < 3; ++k) box.extend(corner(t, k));
             centres.extend(centre(t));
         }
-        nodes_[static_cast<std::size_t>(number)].box = box;
+        nodes_[at(number)].box = box;
         if (end - begin <= leaf_size) return number;
         Eigen::Index axis = 0;
         centres.sizes().maxCoeff(&axis);
@@ -77,17 +80,17 @@ private:
                          });
         const int left = build(begin, middle);
         const int right = build(middle, end);
-        nodes_[static_cast<std::size_t>(number)].left = left;
-        nodes_[static_cast<std::size_t>(number)].right = right;
+        nodes_[at(number)].left = left;
+        nodes_[at(number)].right = right;
         return number;
     }
 
-    Vector3 centre(int t) const { return (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3; }
+    Vector3 centre(int t) const { return triangle_centre(V_, F_, t); }
 
     void meet(int a, int b) {
         if (found_.size() >= most_) return;
-        const Node& x = nodes_[static_cast<std::size_t>(a)];
-        const Node& y = nodes_[static_cast<std::size_t>(b)];
+        const Node& x = nodes_[at(a)];
+        const Node& y = nodes_[at(b)];
         if (!x.box.intersects(y.box)) return;
         if (x.left < 0 && y.left < 0) {
             context_.check_cancelled();
@@ -108,8 +111,8 @@ private:
     void test_leaves(const Node& x, const Node& y) {
         for (int i = x.begin; i < x.end; ++i) {
             for (int j = &x == &y ? i + 1 : y.begin; j < y.end; ++j) {
-                const int s = order_[static_cast<std::size_t>(i)];
-                const int t = order_[static_cast<std::size_t>(j)];
+                const int s = order_[at(i)];
+                const int t = order_[at(j)];
                 if (found_.size() < most_ && are_crossing(s, t)) found_.push_back({s, t});
             }
         }

@@ -22,6 +22,25 @@ struct SurfacePoint {
     }
 };
 
+/// Centre of the triangle with corners `a`, `b` and `c`.
+inline Vector3 triangle_centre(const Vector3& a, const Vector3& b, const Vector3& c) {
+    return (a + b + c) / 3;
+}
+
+/// Normal of the triangle with corners `a`, `b` and `c`, on the side that sees them
+/// counter-clockwise; its length is twice the area.
+inline Vector3 triangle_area_vector(const Vector3& a, const Vector3& b, const Vector3& c) {
+    return (b - a).cross(c - a);
+}
+
+/// The same of triangle `t` of `F` (m x 3) in the frame whose vertex positions are `V` (n x 3).
+inline Vector3 triangle_centre(const Positions& V, const Triangles& F, Eigen::Index t) {
+    return triangle_centre(V.row(F(t, 0)), V.row(F(t, 1)), V.row(F(t, 2)));
+}
+inline Vector3 triangle_area_vector(const Positions& V, const Triangles& F, Eigen::Index t) {
+    return triangle_area_vector(V.row(F(t, 0)), V.row(F(t, 1)), V.row(F(t, 2)));
+}
+
 /// Length of the diagonal of the axis-aligned bounding box of the rows of `V`; 0 where there is
 /// none.
 double bounding_box_diagonal(const Positions& V);

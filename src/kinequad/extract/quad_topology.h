@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/types.h"
 
 namespace kinequad {
@@ -33,24 +34,21 @@ struct QuadTopology {
     }
     static int quad(int half_edge) { return half_edge / 4; }
     /// Vertex that the half-edge ends at.
-    int target(int half_edge) const { return origin[static_cast<std::size_t>(next(half_edge))]; }
+    int target(int half_edge) const { return origin[at(next(half_edge))]; }
     /// The next half-edge that leaves the same vertex, counter-clockwise; -1 across the boundary.
-    int rotate_counter_clockwise(int half_edge) const {
-        return twin[static_cast<std::size_t>(previous(half_edge))];
-    }
+    int rotate_counter_clockwise(int half_edge) const { return twin[at(previous(half_edge))]; }
     bool is_boundary_edge(int edge_index) const {
-        return twin[static_cast<std::size_t>(
-                   edge_half_edge[static_cast<std::size_t>(edge_index)])] < 0;
+        return twin[at(edge_half_edge[at(edge_index)])] < 0;
     }
     bool is_boundary_vertex(int vertex) const {
-        const int half_edge = vertex_half_edge[static_cast<std::size_t>(vertex)];
-        return half_edge >= 0 && twin[static_cast<std::size_t>(half_edge)] < 0;
+        const int half_edge = vertex_half_edge[at(vertex)];
+        return half_edge >= 0 && twin[at(half_edge)] < 0;
     }
     /// Whether the vertex is irregular (singular): valence other than 4 inside, other than 3 on the
     /// boundary. Isolated vertices are not.
     bool is_irregular_vertex(int vertex) const {
-        return vertex_half_edge[static_cast<std::size_t>(vertex)] >= 0 &&
-               valence[static_cast<std::size_t>(vertex)] != (is_boundary_vertex(vertex) ? 3 : 4);
+        return vertex_half_edge[at(vertex)] >= 0 &&
+               valence[at(vertex)] != (is_boundary_vertex(vertex) ? 3 : 4);
     }
 };
 

@@ -4,14 +4,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 
 IntrinsicMetric metric_of(const Topology& topology, const Positions& V) {
     IntrinsicMetric metric;
     metric.edge_length.resize(topology.edge_count);
     for (int e = 0; e < topology.edge_count; ++e) {
-        const int h = topology.edge_half_edge[static_cast<std::size_t>(e)];
-        const int a = topology.origin[static_cast<std::size_t>(h)];
+        const int h = topology.edge_half_edge[at(e)];
+        const int a = topology.origin[at(h)];
         metric.edge_length[e] = (V.row(topology.target(h)) - V.row(a)).norm();
     }
     return metric;
@@ -20,7 +22,7 @@ IntrinsicMetric metric_of(const Topology& topology, const Positions& V) {
 std::array<double, 3> side_lengths(const Topology& topology, const IntrinsicMetric& metric, int t) {
     std::array<double, 3> sides{};
     for (std::size_t k = 0; k < 3; ++k) {
-        sides[k] = metric.edge_length[topology.edge[3 * static_cast<std::size_t>(t) + k]];
+        sides[k] = metric.edge_length[topology.edge[3 * at(t) + k]];
     }
     return sides;
 }
@@ -85,7 +87,7 @@ Eigen::VectorXd triangle_areas(const Topology& topology, const IntrinsicMetric& 
 Eigen::VectorXd angle_defects(const Topology& topology, const IntrinsicMetric& metric) {
     Eigen::VectorXd defects(topology.vertex_count);
     for (int v = 0; v < topology.vertex_count; ++v) {
-        const int h = topology.vertex_half_edge[static_cast<std::size_t>(v)];
+        const int h = topology.vertex_half_edge[at(v)];
         defects[v] = h < 0                            ? 0
                      : topology.is_boundary_vertex(v) ? std::numbers::pi
                                                       : 2 * std::numbers::pi;
@@ -93,18 +95,17 @@ Eigen::VectorXd angle_defects(const Topology& topology, const IntrinsicMetric& m
     for (int t = 0; t < topology.triangle_count; ++t) {
         const std::array<double, 3> angles = corner_angles(side_lengths(topology, metric, t));
         for (std::size_t k = 0; k < 3; ++k) {
-            defects[topology.origin[3 * static_cast<std::size_t>(t) + k]] -= angles[k];
+            defects[topology.origin[3 * at(t) + k]] -= angles[k];
         }
     }
     return defects;
 }
 
 double frame_rotation(const Topology& topology, const IntrinsicMetric& metric, int half_edge) {
-    const int other = topology.twin[static_cast<std::size_t>(half_edge)];
+    const int other = topology.twin[at(half_edge)];
     const auto here = half_edge_directions(side_lengths(topology, metric, half_edge / 3));
     const auto there = half_edge_directions(side_lengths(topology, metric, other / 3));
-    return there[static_cast<std::size_t>(other % 3)] + std::numbers::pi -
-           here[static_cast<std::size_t>(half_edge % 3)];
+    return there[at(other % 3)] + std::numbers::pi - here[at(half_edge % 3)];
 }
 
 }  // namespace kinequad

@@ -4,24 +4,27 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kinequad/core/index.h"
+#include "kinequad/mesh/topology.h"
+
 namespace kinequad {
 
 RefinedMesh as_refined_mesh(const Triangles& F, int vertex_count) {
     RefinedMesh mesh;
     mesh.F = F;
     mesh.vertex_count = vertex_count;
-    mesh.parent.resize(static_cast<std::size_t>(F.rows()));
+    mesh.parent.resize(at(F.rows()));
     std::iota(mesh.parent.begin(), mesh.parent.end(), 0);
     mesh.barycentric = Eigen::Matrix3d::Identity().replicate(F.rows(), 1);
     return mesh;
 }
 
 std::vector<SurfacePoint> vertex_points(const RefinedMesh& mesh) {
-    std::vector<SurfacePoint> points(static_cast<std::size_t>(mesh.vertex_count));
+    std::vector<SurfacePoint> points(at(mesh.vertex_count));
     for (Eigen::Index corner = 0; corner < mesh.F.size(); ++corner) {
-        SurfacePoint& point = points[static_cast<std::size_t>(mesh.F.data()[corner])];
+        SurfacePoint& point = points[at(mesh.F.data()[corner])];
         if (point.triangle >= 0) continue;
-        point.triangle = mesh.parent[static_cast<std::size_t>(corner / 3)];
+        point.triangle = mesh.parent[at(corner / 3)];
         point.barycentric = mesh.barycentric.row(corner).transpose();
     }
     return points;
@@ -30,13 +33,13 @@ std::vector<SurfacePoint> vertex_points(const RefinedMesh& mesh) {
 SurfacePoint point_of_input(const RefinedMesh& mesh, const SurfacePoint& point) {
     const Eigen::Index corner = 3 * static_cast<Eigen::Index>(point.triangle);
     const Vector3 sum = mesh.barycentric.middleRows<3>(corner).transpose() * point.barycentric;
-    return {mesh.parent[static_cast<std::size_t>(point.triangle)], sum / sum.sum()};
+    return {mesh.parent[at(point.triangle)], sum / sum.sum()};
 }
 
 RefinementSearch::RefinementSearch(const RefinedMesh& mesh) : mesh_(mesh) {
     order_.resize(mesh.parent.size());
     std::iota(order_.begin(), order_.end(), 0);
-    const auto parent_of = [&](int t) { return mesh.parent[static_cast<std::size_t>(t)]; };
+    const auto parent_of = [&](int t) { return mesh.parent[at(t)]; };
     std::stable_sort(order_.begin(), order_.end(),
                      [&](int a, int b) { return parent_of(a) < parent_of(b); });
     for (std::size_t i = 0; i < order_.size(); ++i) {
@@ -49,10 +52,10 @@ RefinementSearch::RefinementSearch(const RefinedMesh& mesh) : mesh_(mesh) {
 
 SurfacePoint RefinementSearch::find(const SurfacePoint& point) const {
     constexpr double rounding = 1e-9;
-    const auto parent = static_cast<std::size_t>(point.triangle);
+    const auto parent = at(point.triangle);
     SurfacePoint found;
     for (int i = start_[parent]; i < start_[parent + 1]; ++i) {
-        const int t = order_[static_cast<std::size_t>(i)];
+        const int t = order_[at(i)];
         const Eigen::Matrix3d corners =
             mesh_.barycentric.middleRows<3>(3 * static_cast<Eigen::Index>(t)).transpose();
         const Vector3 barycentric = corners.inverse() * point.barycentric;
@@ -71,7 +74,7 @@ SurfacePoint RefinementSearch::find(const SurfacePoint& point) const {
 RefinedMesh as_refinement_of_input(const RefinedMesh& outer, const RefinedMesh& inner) {
     RefinedMesh mesh = inner;
     for (Eigen::Index corner = 0; corner < inner.F.size(); ++corner) {
-        const auto t = static_cast<std::size_t>(corner / 3);
+        const auto t = at(corner / 3);
         const SurfacePoint point =
             point_of_input(outer, {inner.parent[t], inner.barycentric.row(corner).transpose()});
         mesh.barycentric.row(corner) = point.barycentric.transpose();
@@ -81,10 +84,10 @@ RefinedMesh as_refinement_of_input(const RefinedMesh& outer, const RefinedMesh& 
 }
 
 int side_of_parent(const RefinedMesh& mesh, int h) {
-    const int next = h % 3 == 2 ? h - 2 : h + 1;
+    const int next = Topology::next(h);
     for (int k = 0; k < 3; ++k) {
         if (mesh.barycentric(h, k) == 0 && mesh.barycentric(next, k) == 0)
-            return 3 * mesh.parent[static_cast<std::size_t>(h / 3)] + (k + 1) % 3;
+            return 3 * mesh.parent[at(h / 3)] + (k + 1) % 3;
     }
     return -1;
 }

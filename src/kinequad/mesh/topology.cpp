@@ -7,11 +7,10 @@
 #include <numeric>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 
 namespace kinequad {
 namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 void check_triangles(const Triangles& F, int vertex_count) {
     for (int t = 0; t < F.rows(); ++t) {
@@ -53,7 +52,7 @@ void pair_half_edges(Topology& topology) {
         std::size_t j = i + 1;
         while (j < count && keys[j].edge == keys[i].edge) ++j;
         const int first = keys[i].half_edge;
-        const int a = topology.origin[index(first)];
+        const int a = topology.origin[at(first)];
         const int b = topology.target(first);
         if (j - i > 2) {
             throw InputError(
@@ -65,14 +64,14 @@ void pair_half_edges(Topology& topology) {
         }
         if (j - i == 2) {
             const int second = keys[i + 1].half_edge;
-            if (topology.origin[index(second)] == a) {
+            if (topology.origin[at(second)] == a) {
                 throw InputError(InputFault::mesh,
                                  fmt::format("triangles {} and {} run along edge {}-{} in the same "
                                              "direction; orient the faces consistently",
                                              first / 3, second / 3, a, b));
             }
-            topology.twin[index(first)] = second;
-            topology.twin[index(second)] = first;
+            topology.twin[at(first)] = second;
+            topology.twin[at(second)] = first;
         }
         i = j;
     }
@@ -83,7 +82,7 @@ void number_edges(Topology& topology) {
     for (std::size_t h = 0; h < topology.twin.size(); ++h) {
         const int other = topology.twin[h];
         if (other >= 0 && other < static_cast<int>(h)) {
-            topology.edge[h] = topology.edge[index(other)];
+            topology.edge[h] = topology.edge[at(other)];
         } else {
             topology.edge[h] = topology.edge_count++;
             topology.edge_half_edge.push_back(static_cast<int>(h));
@@ -93,31 +92,31 @@ void number_edges(Topology& topology) {
 
 /// Chooses the outgoing half-edge of every vertex and checks that its triangles form a single fan.
 void link_vertices(Topology& topology) {
-    std::vector<int> degree(index(topology.vertex_count), 0);
-    topology.vertex_half_edge.assign(index(topology.vertex_count), -1);
+    std::vector<int> degree(at(topology.vertex_count), 0);
+    topology.vertex_half_edge.assign(at(topology.vertex_count), -1);
     for (std::size_t h = 0; h < topology.origin.size(); ++h) {
         const int v = topology.origin[h];
-        ++degree[index(v)];
-        int& chosen = topology.vertex_half_edge[index(v)];
-        if (chosen < 0 || (topology.twin[h] < 0 && topology.twin[index(chosen)] >= 0)) {
+        ++degree[at(v)];
+        int& chosen = topology.vertex_half_edge[at(v)];
+        if (chosen < 0 || (topology.twin[h] < 0 && topology.twin[at(chosen)] >= 0)) {
             chosen = static_cast<int>(h);
         }
     }
     for (int v = 0; v < topology.vertex_count; ++v) {
-        const int start = topology.vertex_half_edge[index(v)];
+        const int start = topology.vertex_half_edge[at(v)];
         if (start < 0) continue;
         int reached = 0;
         int h = start;
         do {
             ++reached;
             h = topology.rotate_counter_clockwise(h);
-        } while (h >= 0 && h != start && reached <= degree[index(v)]);
-        if (reached != degree[index(v)]) {
+        } while (h >= 0 && h != start && reached <= degree[at(v)]);
+        if (reached != degree[at(v)]) {
             throw InputError(
                 InputFault::mesh,
                 fmt::format("vertex {} is non-manifold: its {} triangles form more than "
                             "one fan; duplicate the vertex, one copy a fan",
-                            v, degree[index(v)]));
+                            v, degree[at(v)]));
         }
     }
 }
@@ -138,7 +137,7 @@ Topology build_topology(const Triangles& F, int vertex_count) {
 
 std::vector<int> outgoing_half_edges(const Topology& topology, int vertex) {
     std::vector<int> result;
-    const int start = topology.vertex_half_edge[index(vertex)];
+    const int start = topology.vertex_half_edge[at(vertex)];
     for (int h = start; h >= 0;) {
         result.push_back(h);
         h = topology.rotate_counter_clockwise(h);
@@ -148,20 +147,20 @@ std::vector<int> outgoing_half_edges(const Topology& topology, int vertex) {
 }
 
 std::vector<int> triangle_components(const Topology& topology) {
-    std::vector<int> component(index(topology.triangle_count), -1);
+    std::vector<int> component(at(topology.triangle_count), -1);
     std::vector<int> stack;
     int count = 0;
     for (int seed = 0; seed < topology.triangle_count; ++seed) {
-        if (component[index(seed)] >= 0) continue;
-        component[index(seed)] = count;
+        if (component[at(seed)] >= 0) continue;
+        component[at(seed)] = count;
         stack.push_back(seed);
         while (!stack.empty()) {
             const int t = stack.back();
             stack.pop_back();
             for (int k = 0; k < 3; ++k) {
-                const int other = topology.twin[index(3 * t + k)];
-                if (other < 0 || component[index(other / 3)] >= 0) continue;
-                component[index(other / 3)] = count;
+                const int other = topology.twin[at(3 * t + k)];
+                if (other < 0 || component[at(other / 3)] >= 0) continue;
+                component[at(other / 3)] = count;
                 stack.push_back(other / 3);
             }
         }
@@ -177,10 +176,10 @@ std::vector<std::vector<int>> boundary_loops(const Topology& topology) {
         if (topology.twin[start] >= 0 || visited[start]) continue;
         std::vector<int> loop;
         int h = static_cast<int>(start);
-        while (!visited[index(h)]) {
-            visited[index(h)] = true;
+        while (!visited[at(h)]) {
+            visited[at(h)] = true;
             loop.push_back(h);
-            h = topology.vertex_half_edge[index(topology.target(h))];
+            h = topology.vertex_half_edge[at(topology.target(h))];
         }
         loops.push_back(std::move(loop));
     }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -19,8 +20,10 @@
 namespace {
 
 using Json = nlohmann::json;
+using kinequad::FrameSource;
 using kinequad::Positions;
 using kinequad::Quads;
+using kinequad::Triangles;
 using kinequad::Vector3;
 
 std::filesystem::path folder_of(const std::string& sequence) {
@@ -43,32 +46,64 @@ double seconds_of(const Json& record, const std::vector<std::string>& stages) {
     return sum;
 }
 
+/// The place of a point [triangle, b0, b1, b2] of symmetry.json on the surface `V`, `F`.
+Vector3 place_of(const Json& point, const Positions& V, const Triangles& F) {
+    Vector3 place = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) {
+        place += point[static_cast<std::size_t>(k + 1)].get<double>() *
+                 V.row(F(point[0].get<int>(), k)).transpose();
+    }
+    return place;
+}
+
+double mean_of(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+}
+
+/// Whether the true map is known: these bodies have one topology, whose rest shape mirrors in x =
+/// 0.
+bool has_true_map(const std::string& sequence) { return sequence.rfind("makehuman", 0) == 0; }
+
 /// Errors of the map against the true mirror vertices, mean and 99th percentile, in percent.
-std::string errors_against_truth(const std::string& sequence, const std::filesystem::path& data,
+std::string errors_against_truth(const std::filesystem::path& data, const FrameSource& frames,
                                  const Json& map) {
-    if (sequence.rfind("makehuman", 0) != 0) return "";
     std::ifstream file(data / "sequences" / "makehuman_mirror.txt");
     std::vector<int> mirror;
     for (int v = 0; file >> v;) mirror.push_back(v);
-    const auto frames =
-        kinequad::open_sequence((data / "sequences" / (sequence + ".obj")).string());
-    const Positions V = frames->read_rest_shape();
-    const auto& F = frames->triangles();
+    const Positions V = frames.read_rest_shape();
+    const double percent = 100 / kinequad::bounding_box_diagonal(V);
     std::vector<double> errors;
     for (std::size_t v = 0; v < mirror.size(); ++v) {
-        const Json& image = map["image"][v];
-        Vector3 place = Vector3::Zero();
-        for (int k = 0; k < 3; ++k) {
-            place += image[static_cast<std::size_t>(k + 1)].get<double>() *
-                     V.row(F(image[0].get<int>(), k)).transpose();
-        }
-        errors.push_back(100 * (place - V.row(mirror[v]).transpose()).norm() /
-                         kinequad::bounding_box_diagonal(V));
+        const Vector3 place = place_of(map["image"][v], V, frames.triangles());
+        errors.push_back(percent * (place - V.row(mirror[v]).transpose()).norm());
     }
     std::sort(errors.begin(), errors.end());
-    double mean = 0;
-    for (const double error : errors) mean += error / static_cast<double>(errors.size());
-    return fmt::format("{:.4f} / {:.3f}", mean, errors[errors.size() * 99 / 100]);
+    return fmt::format("{:.4f} / {:.3f}", mean_of(errors), errors[errors.size() * 99 / 100]);
+}
+
+/// Distance of the points of the stationary curve from the true midline, where the rest shape has
+/// x = 0, mean and largest, in percent.
+std::string distance_from_midline(const FrameSource& frames, const Json& map) {
+    const Positions V = frames.read_rest_shape();
+    const double percent = 100 / kinequad::bounding_box_diagonal(V);
+    std::vector<double> distances;
+    for (const Json& line : map["stationary"]) {
+        for (const Json& point : line) {
+            distances.push_back(percent * std::abs(place_of(point, V, frames.triangles())[0]));
+        }
+    }
+    if (distances.empty()) return "-";
+    return fmt::format("{:.4f} / {:.4f}", mean_of(distances),
+                       *std::max_element(distances.begin(), distances.end()));
+}
+
+/// CPU time of the stage that finds the map, where the symmetry `mode` is asked for. That of
+/// `field` also inserts the curve into the triangles, that of `exact` evens out the half.
+std::string symmetry_seconds(const std::string& sequence, const std::string& mode) {
+    const Json record = record_of(sequence, mode);
+    return record.is_null() ? "-" : fmt::format("{:.2f}", seconds_of(record, {"symmetry"}));
 }
 
 /// Mean angle deviation over all frames of the solved and of the mirrored half, in degrees, and the
@@ -113,10 +148,16 @@ void print_map(const std::string& sequence, const std::filesystem::path& data) {
         return;
     }
     const Json map = Json::parse(kinequad::read_text_file(path));
-    fmt::print("| {} | {} | {:.3f} | {} | {} |\n", sequence,
-               errors_against_truth(sequence, data, map),
+    const auto frames =
+        kinequad::open_sequence((data / "sequences" / (sequence + ".obj")).string());
+    const bool has_truth = has_true_map(sequence);
+    fmt::print("| {} | {} | {} | {:.3f} | {} | {} | {} | {} / {} |\n", sequence,
+               frames->triangles().rows(),
+               has_truth ? errors_against_truth(data, *frames, map) : "",
                map["quality"]["involution_mean_percent"].get<double>(),
-               map["quality"]["reversed_triangles"].get<int>(), map["stationary"].size());
+               map["quality"]["reversed_triangles"].get<int>(), map["stationary"].size(),
+               has_truth ? distance_from_midline(*frames, map) : "",
+               symmetry_seconds(sequence, "field"), symmetry_seconds(sequence, "exact"));
 }
 
 void print_quads(const std::string& sequence) {
@@ -178,8 +219,9 @@ int main(int argc, char** argv) {
         const std::filesystem::path data = argv[2];
         const std::vector<std::string> sequences(argv + 3, argv + argc);
         fmt::print(
-            "| map of | error against the true map %, mean / 99 % | S(S(p)) %, mean | reversed "
-            "triangles | lines |\n|---|---|---|---|---|\n");
+            "| map of | triangles | error against the true map %, mean / 99 % | S(S(p)) %, mean | "
+            "reversed triangles | lines | line from the true midline %, mean / largest | CPU s, "
+            "symmetry stage of field / exact |\n|---|---|---|---|---|---|---|---|\n");
         for (const std::string& sequence : sequences) print_map(sequence, data);
         fmt::print(
             "\n| quads of | symmetry | vertices | singular | field error deg | partnered | angle "

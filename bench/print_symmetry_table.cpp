@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -37,6 +38,17 @@ using kinequad::Vector3;
 /// As scripts/symmetry asks for.
 constexpr int wanted_vertices = 5200;
 
+/// A run of a sequence: its folder, and how the table calls it.
+struct Mode {
+    const char* folder;
+    const char* name;
+};
+constexpr std::array<Mode, 5> modes = {{{"none", "none"},
+                                        {"term", "field, term"},
+                                        {"orbits", "field, orbits"},
+                                        {"field", "field"},
+                                        {"exact", "exact"}}};
+
 std::filesystem::path folder_of(const std::string& sequence) {
     return std::filesystem::path("out/symmetry") / sequence;
 }
@@ -45,6 +57,8 @@ Json record_of(const std::string& sequence, const std::string& mode) {
     const auto path = folder_of(sequence) / mode / "run.json";
     return std::filesystem::exists(path) ? Json::parse(kinequad::read_text_file(path)) : Json();
 }
+
+bool is_without_symmetry(const Json& record) { return record["options"]["symmetry"] == "none"; }
 
 /// CPU time of some stages, in seconds.
 double seconds_of(const Json& record, const std::vector<std::string>& stages) {
@@ -200,7 +214,7 @@ std::optional<FieldSymmetry> measure_free_field(const std::string& sequence,
 /// The columns of the field's symmetry: what the record says of it, or what is measured here.
 std::string field_columns(const Json& record, const std::string& sequence,
                           const std::filesystem::path& data) {
-    if (record["options"]["symmetry"] == "none") {
+    if (is_without_symmetry(record)) {
         const std::optional<FieldSymmetry> symmetry = measure_free_field(sequence, data);
         if (!symmetry) return "- | -";
         return fmt::format("{:.2f} | {} of {}", symmetry->mean_degrees, symmetry->partnered,
@@ -212,11 +226,12 @@ std::string field_columns(const Json& record, const std::string& sequence,
                        symmetry["partnered"].get<int>(), symmetry["singularities"].get<int>());
 }
 
-/// In how many frames the Hausdorff distance is not above that without symmetry, given the metrics
-/// of both.
-std::string frames_not_above(const Json& metrics, const Json& plain) {
-    const auto values = metrics["hausdorff_percent"].get<std::vector<double>>();
-    const auto others = plain["hausdorff_percent"].get<std::vector<double>>();
+/// In how many frames the Hausdorff distance is not above that of `plain`, without symmetry.
+std::string frames_not_above(const Json& record, const Json& plain) {
+    if (is_without_symmetry(record)) return "";
+    if (plain.is_null()) return "-";
+    const auto values = record["metrics"]["hausdorff_percent"].get<std::vector<double>>();
+    const auto others = plain["metrics"]["hausdorff_percent"].get<std::vector<double>>();
     int count = 0;
     for (std::size_t f = 0; f < values.size(); ++f) count += values[f] <= others.at(f) ? 1 : 0;
     return fmt::format("{} of {}", count, values.size());
@@ -224,22 +239,21 @@ std::string frames_not_above(const Json& metrics, const Json& plain) {
 
 void print_quads(const std::string& sequence, const std::filesystem::path& data) {
     const Json plain = record_of(sequence, "none");
-    for (const std::string mode : {"none", "orbits", "field", "exact"}) {
+    for (const auto& [mode, name] : modes) {
         const Json record = record_of(sequence, mode);
         if (record.is_null()) {
-            fmt::print("| {} | {} | no result |\n", sequence, mode);
+            fmt::print("| {} | {} | no result |\n", sequence, name);
             continue;
         }
         const Json& metrics = record["metrics"];
-        fmt::print(
-            "| {} | {} | {} | {} | {} | {:.2f} | {:.3f} | {} | {} | {:.1f} | {:.2f} |\n", sequence,
-            mode, metrics["vertices"].get<int>(), metrics["singular_vertices"].get<int>(),
-            field_columns(record, sequence, data),
-            metrics["mean"]["angle_deviation_mean"].get<double>(),
-            metrics["mean"]["hausdorff_percent"].get<double>(),
-            mode == "none" || plain.is_null() ? "" : frames_not_above(metrics, plain["metrics"]),
-            metrics["folded_quads"].at(0).get<int>(), metrics["mean"]["folded_quads"].get<double>(),
-            seconds_of(record, {"field", "map", "extraction"}));
+        fmt::print("| {} | {} | {} | {} | {} | {:.2f} | {:.3f} | {} | {} | {:.1f} | {:.2f} |\n",
+                   sequence, name, metrics["vertices"].get<int>(),
+                   metrics["singular_vertices"].get<int>(), field_columns(record, sequence, data),
+                   metrics["mean"]["angle_deviation_mean"].get<double>(),
+                   metrics["mean"]["hausdorff_percent"].get<double>(),
+                   frames_not_above(record, plain), metrics["folded_quads"].at(0).get<int>(),
+                   metrics["mean"]["folded_quads"].get<double>(),
+                   seconds_of(record, {"field", "map", "extraction"}));
     }
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/field/symmetrise_field.h"
 #include "kinequad/io/files.h"
 #include "kinequad/io/landmarks.h"
@@ -75,8 +76,8 @@ double seconds_of(const Json& record, const std::vector<std::string>& stages) {
 Vector3 place_of(const Json& point, const Positions& V, const Triangles& F) {
     Vector3 place = Vector3::Zero();
     for (int k = 0; k < 3; ++k) {
-        place += point[static_cast<std::size_t>(k + 1)].get<double>() *
-                 V.row(F(point[0].get<int>(), k)).transpose();
+        place +=
+            point[kinequad::at(k + 1)].get<double>() * V.row(F(point[0].get<int>(), k)).transpose();
     }
     return place;
 }
@@ -87,8 +88,7 @@ double mean_of(const std::vector<double>& values) {
     return sum / static_cast<double>(values.size());
 }
 
-/// Whether the true map is known: these bodies have one topology, whose rest shape mirrors in x =
-/// 0.
+/// Whether the true map is known, as of the bodies whose rest shape mirrors in x = 0.
 bool has_true_map(const std::string& sequence) { return sequence.rfind("makehuman", 0) == 0; }
 
 /// Errors of the map against the true mirror vertices, mean and 99th percentile, in percent.
@@ -106,6 +106,19 @@ std::string errors_against_truth(const std::filesystem::path& data, const FrameS
     }
     std::sort(errors.begin(), errors.end());
     return fmt::format("{:.4f} / {:.3f}", mean_of(errors), errors[errors.size() * 99 / 100]);
+}
+
+/// How many polylines of the stationary curve are closed, of all.
+std::string closed_lines(const FrameSource& frames, const Json& map) {
+    const Positions V = frames.read_frame(0);
+    const double tolerance = 1e-9 * kinequad::bounding_box_diagonal(V);
+    int closed = 0;
+    for (const Json& line : map["stationary"]) {
+        const Vector3 first = place_of(line.front(), V, frames.triangles());
+        const Vector3 last = place_of(line.back(), V, frames.triangles());
+        closed += (last - first).norm() <= tolerance ? 1 : 0;
+    }
+    return fmt::format("{} of {}", closed, map["stationary"].size());
 }
 
 /// Distance of the points of the stationary curve from the true midline, where the rest shape has
@@ -180,7 +193,7 @@ void print_map(const std::string& sequence, const std::filesystem::path& data) {
                frames->triangles().rows(),
                has_truth ? errors_against_truth(data, *frames, map) : "",
                map["quality"]["involution_mean_percent"].get<double>(),
-               map["quality"]["reversed_triangles"].get<int>(), map["stationary"].size(),
+               map["quality"]["reversed_triangles"].get<int>(), closed_lines(*frames, map),
                has_truth ? distance_from_midline(*frames, map) : "",
                symmetry_seconds(sequence, "field"), symmetry_seconds(sequence, "exact"));
 }
@@ -290,7 +303,8 @@ int main(int argc, char** argv) {
         const std::vector<std::string> sequences(argv + 3, argv + argc);
         fmt::print(
             "| map of | triangles | error against the true map %, mean / 99 % | S(S(p)) %, mean | "
-            "reversed triangles | lines | line from the true midline %, mean / largest | CPU s, "
+            "reversed triangles | closed lines | line from the true midline %, mean / largest | "
+            "CPU s, "
             "symmetry stage of field / exact |\n|---|---|---|---|---|---|---|---|\n");
         for (const std::string& sequence : sequences) print_map(sequence, data);
         fmt::print(

@@ -25,9 +25,8 @@ double mean_angle_deviation(const QuadMesh& quads, const std::vector<DomainView>
     double sum = 0;
     int frames = 0;
     for (const DomainView& view : views) {
-        const int count = std::min(most_frames, view.frames.frame_count());
-        for (int i = 0; i < count; ++i) {
-            const Positions input = view.frames.read_frame(i * view.frames.frame_count() / count);
+        for (const int frame : evenly_chosen_frames(view.frames.frame_count(), most_frames)) {
+            const Positions input = view.frames.read_frame(frame);
             const Positions X = quad_positions(quads, input, view.frames.triangles());
             sum += measure_shape(X, quads.Q).angle_deviation_mean;
             ++frames;

@@ -25,13 +25,14 @@ namespace {
 
 constexpr int largest_evening_rounds = 8;
 
-/// Shapes in which the two sides are matched: the reference and some frames, evenly chosen.
-std::vector<Positions> matching_shapes(const FrameSource& frames, const Positions& reference) {
+/// Shapes in which the two sides are matched: the reference, which is frame `reference_frame` if
+/// any, and some other frames, evenly chosen.
+std::vector<Positions> matching_shapes(const FrameSource& frames, const Positions& reference,
+                                       int reference_frame) {
     constexpr int largest_count = 8;
     std::vector<Positions> shapes = {reference};
-    const int count = std::min(largest_count, frames.frame_count());
-    for (int i = 1; i < count; ++i) {
-        shapes.push_back(frames.read_frame(i * frames.frame_count() / count));
+    for (const int frame : evenly_chosen_frames(frames.frame_count(), largest_count)) {
+        if (frame != reference_frame) shapes.push_back(frames.read_frame(frame));
     }
     return shapes;
 }
@@ -75,10 +76,11 @@ std::vector<FixedDirection> curve_directions(const LevelSplit& split, const Topo
 
 /// Whether two views are the same but for rigid motions and mirrors, as those of a surface that
 /// mirrors in space: by their edge lengths in the poses that the sides are matched in.
-bool are_alike(const DomainView& one, const DomainView& other, const Topology& topology) {
+bool are_alike(const DomainView& one, const DomainView& other, const Topology& topology,
+               int reference_frame) {
     constexpr double tolerance = 1e-6;
-    const auto shapes = matching_shapes(one.frames, one.reference);
-    const auto others = matching_shapes(other.frames, other.reference);
+    const auto shapes = matching_shapes(one.frames, one.reference, reference_frame);
+    const auto others = matching_shapes(other.frames, other.reference, reference_frame);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const Eigen::VectorXd lengths = metric_of(topology, shapes[i]).edge_length;
         const Eigen::VectorXd there = metric_of(topology, others[i]).edge_length;
@@ -176,9 +178,9 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
     const IntrinsicMetric& metric = surface.metric;
     const Positions& reference = surface.reference;
     const SymmetricHalf& side = result.domain.surface;
-    const std::vector<SurfacePoint> mirrored =
-        mirror_points(side, topology, metric, frames.triangles(),
-                      matching_shapes(frames, reference), half.vertex, context);
+    const std::vector<SurfacePoint> mirrored = mirror_points(
+        side, topology, metric, frames.triangles(),
+        matching_shapes(frames, reference, result.options.reference), half.vertex, context);
     QuadMesh on_whole{half.Q, {}, {}};
     for (const SurfacePoint& point : half.vertex) {
         on_whole.vertex.push_back(point_of_input(side.mesh, point));
@@ -296,7 +298,7 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
         return map_and_extract(views, result, context, finish_stage);
     };
     const QuadMesh solved = solve_best_recipe(views, result, solve, context, finish_stage);
-    const bool are_tied = are_alike(views[0], views[1], half_topology);
+    const bool are_tied = are_alike(views[0], views[1], half_topology, result.options.reference);
     const QuadMesh half_quads =
         are_tied ? relax_on_domain(result.domain, views, result.map.feature_edges, solved,
                                    result.options, context)

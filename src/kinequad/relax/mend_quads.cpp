@@ -250,8 +250,9 @@ int SlidingQuads::cover_extremities_in(const Reference& reference, double limit,
         // Where limbs touch, that quad may be on the wrong one.
         corners.emplace_back(0, nearest_in_all_frames(f.vertex));
         const int h = topology_.vertex_half_edge[at(f.vertex)];
-        SurfacePoint extremity{h / 3, Vector3::Unit(h % 3)};
-        if (walk_) extremity = walk_->seat(extremity);
+        // On a line, where this triangle has no edge of it, a vertex stays on the tip for good.
+        // Letting all of those slide, or none, was measured: no better.
+        const SurfacePoint extremity{h / 3, Vector3::Unit(h % 3)};
         const bool is_on_line = walk_ && walk_->edge_of(extremity) >= 0;
         if (topology_.is_boundary_vertex(f.vertex) && !is_on_line) continue;
         for (const auto& [distance, v] : corners) {

@@ -98,7 +98,8 @@ public:
     /// Whether a quad is folded in a reference.
     bool is_folded(int quad) const { return least_jacobian_of(quad) <= 0; }
 
-    /// Sets free what `cover_extremities` has put in place and `hold` has kept.
+    /// Sets free what `cover_extremities` has put in place and `hold` has kept; some tips of lines
+    /// keep their vertices.
     void release();
 
     /// Puts a quad vertex onto every vertex of the input that is farther than `limit` (units of the

@@ -53,8 +53,7 @@ public:
         }
         normals_.resize(mesh.F.rows(), 3);
         for (Eigen::Index t = 0; t < mesh.F.rows(); ++t) {
-            const Vector3 a = corner(t, 0);
-            normals_.row(t) = (corner(t, 1) - a).cross(corner(t, 2) - a).normalized().transpose();
+            normals_.row(t) = triangle_area_vector(mesh.V, mesh.F, t).normalized().transpose();
         }
     }
 
@@ -109,8 +108,7 @@ public:
     Vector3 vertex_normal(int v) const {
         Vector3 sum = Vector3::Zero();
         for (const int h : outgoing_half_edges(topology_, v)) {
-            const Vector3 a = corner(h / 3, 0);
-            sum += (corner(h / 3, 1) - a).cross(corner(h / 3, 2) - a);
+            sum += triangle_area_vector(mesh_.V, mesh_.F, h / 3);
         }
         return sum.normalized();
     }
@@ -217,8 +215,7 @@ SymmetryMap compute_mirror_map(const TriangleMesh& mesh, const MirrorPlane& plan
     parallel_for(map.centre_image.size(), 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const int t = static_cast<int>(i);
-            const Vector3 centre =
-                (surface.corner(t, 0) + surface.corner(t, 1) + surface.corner(t, 2)) / 3;
+            const Vector3 centre = triangle_centre(mesh.V, mesh.F, t);
             const int hint = map.vertex_image[at(mesh.F(t, 0))].triangle;
             map.centre_image[i] =
                 surface.image(centre, surface.triangle_normal(t), surface.component_of(t), hint);

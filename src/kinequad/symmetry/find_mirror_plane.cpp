@@ -24,11 +24,8 @@ Samples sample_surface(const TriangleMesh& mesh, int count) {
     const Eigen::Index step = std::max<Eigen::Index>(1, mesh.F.rows() / count);
     double sum = 0;
     for (Eigen::Index t = 0; t < mesh.F.rows(); t += step) {
-        const Vector3 a = mesh.V.row(mesh.F(t, 0)).transpose();
-        const Vector3 b = mesh.V.row(mesh.F(t, 1)).transpose();
-        const Vector3 c = mesh.V.row(mesh.F(t, 2)).transpose();
-        samples.point.emplace_back((a + b + c) / 3);
-        samples.weight.push_back((b - a).cross(c - a).norm());
+        samples.point.push_back(triangle_centre(mesh.V, mesh.F, t));
+        samples.weight.push_back(triangle_area_vector(mesh.V, mesh.F, t).norm());
         sum += samples.weight.back();
     }
     for (double& w : samples.weight) w = sum > 0 ? w / sum : 1.0 / double(samples.weight.size());

@@ -37,17 +37,16 @@ Part make_part(const TriangleMesh& mesh, const std::vector<int>& triangles) {
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         part.F.row(static_cast<Eigen::Index>(i)) = mesh.F.row(triangles[i]);
-        const auto corner = [&](int k) -> Vector3 {
-            return mesh.V.row(mesh.F(triangles[i], k)).transpose();
-        };
-        const Vector3 centre = (corner(0) + corner(1) + corner(2)) / 3;
-        const double area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2;
+        const Vector3 centre = triangle_centre(mesh.V, mesh.F, triangles[i]);
+        const double area = triangle_area_vector(mesh.V, mesh.F, triangles[i]).norm() / 2;
         part.area += area;
         sum += area * (centre - origin);
         moment += area * (centre - origin) * (centre - origin).transpose();
         if (i % step != 0) continue;
         part.point.push_back(centre);
-        for (int k = 0; k < 3; ++k) part.point.push_back(corner(k));
+        for (const int v : mesh.F.row(triangles[i])) {
+            part.point.emplace_back(mesh.V.row(v).transpose());
+        }
     }
     if (!(part.area > 0)) {
         for (const Vector3& p : part.point) {
@@ -200,10 +199,7 @@ std::vector<int> vote(const TriangleMesh& mesh, const std::vector<std::vector<in
         int hint = -1;
         const std::size_t step = std::max<std::size_t>(1, triangles.size() / 500);
         for (std::size_t i = 0; i < triangles.size(); i += step) {
-            const auto corner = [&](int k) -> Vector3 {
-                return mesh.V.row(mesh.F(triangles[i], k)).transpose();
-            };
-            const Vector3 centre = (corner(0) + corner(1) + corner(2)) / 3;
+            const Vector3 centre = triangle_centre(mesh.V, mesh.F, triangles[i]);
             hint = all.find(plane.reflect(centre), hint).point.triangle;
             ++votes[at(part_of[at(hint)])];
         }

@@ -43,7 +43,8 @@ struct Attempt {
     std::optional<FieldSymmetry> field_symmetry;
     GridMap map;
     std::vector<std::string> notes;
-    QuadMesh quads;
+    QuadMesh quads_on_input;
+    QuadMesh quads;  ///< on the domain
     bool is_off_count = false;
     double angle = 0;  ///< mean deviation, in degrees
     std::ptrdiff_t singular = 0;
@@ -62,9 +63,9 @@ private:
 /// Takes what the last recipe made out of `result`.
 Attempt take_attempt(Result& result, QuadMesh quads, const std::vector<DomainView>& views) {
     constexpr double allowed = 0.05;
-    Attempt attempt{result.options,        std::move(result.domain), std::move(result.field),
-                    result.field_symmetry, std::move(result.map),    std::move(result.notes),
-                    std::move(quads)};
+    Attempt attempt{result.options,          std::move(result.domain), std::move(result.field),
+                    result.field_symmetry,   std::move(result.map),    std::move(result.notes),
+                    std::move(result.quads), std::move(quads)};
     attempt.is_off_count = !attempt.notes.empty() ||
                            std::abs(attempt.map.quads / attempt.map.wanted_quads - 1) > allowed;
     attempt.angle = mean_angle_deviation(attempt.quads, views);
@@ -81,6 +82,7 @@ QuadMesh put_attempt(Attempt attempt, Result& result) {
     result.field_symmetry = attempt.field_symmetry;
     result.map = std::move(attempt.map);
     result.notes = std::move(attempt.notes);
+    result.quads = std::move(attempt.quads_on_input);
     return std::move(attempt.quads);
 }
 
@@ -125,7 +127,6 @@ QuadMesh solve_best_recipe(const std::vector<DomainView>& views, Result& result,
     QuadMesh quads = put_attempt(*std::move(best), result);
     if (!is_best_last) {
         // Whoever watches the stages sees those that count last.
-        result.quads = on_input(quads, result);
         for (const char* stage : {"field", "map", "extraction"}) finish_stage(stage);
     }
     return quads;

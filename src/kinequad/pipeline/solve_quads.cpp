@@ -178,6 +178,15 @@ QuadMesh separate_from_curve(QuadMesh quads, const Domain& domain,
         });
 }
 
+/// `quads`, on the triangles of `result.domain`, as points of the input.
+QuadMesh on_input(QuadMesh quads, const Result& result) {
+    for (SurfacePoint& point : quads.vertex) {
+        point = point_of_input(result.domain.surface.mesh, point);
+        if (result.refined) point = point_of_input(*result.refined, point);
+    }
+    return quads;
+}
+
 /// How far quads of a run are relaxed, where a frame of all its views has `vertex_count` vertices.
 RelaxOptions relax_options(const Options& run, int vertex_count) {
     RelaxOptions options;
@@ -222,14 +231,6 @@ void measure_deformation(const std::vector<DomainView>& views, Result& result,
 void solve_field(Result& result, const Context& context,
                  const std::optional<CrossFieldTargets>& targets) {
     result.field = make_cross_field(result, targets ? *targets : make_targets(result), context);
-}
-
-QuadMesh on_input(QuadMesh quads, const Result& result) {
-    for (SurfacePoint& point : quads.vertex) {
-        point = point_of_input(result.domain.surface.mesh, point);
-        if (result.refined) point = point_of_input(*result.refined, point);
-    }
-    return quads;
 }
 
 QuadMesh map_and_extract(const std::vector<DomainView>& views, Result& result,

@@ -48,9 +48,6 @@ void measure_deformation(const std::vector<DomainView>& views, Result& result,
 void solve_field(Result& result, const Context& context,
                  const std::optional<CrossFieldTargets>& targets = std::nullopt);
 
-/// `quads`, on the triangles of `result.domain`, as points of the input.
-QuadMesh on_input(QuadMesh quads, const Result& result);
-
 /// Makes quads of `result.field` over `result.domain`: map and extraction, each verified. Fills in
 /// `map`, and `quads` with what is extracted. Returns the quads, whose vertices are points of the
 /// domain's triangles. Throws as `quadrangulate`.

@@ -351,7 +351,7 @@ TEST(Program, AnswersLandmarksThatDoNotFitWithCode5) {
     std::swap(exchanged["pairs"][0][1], exchanged["pairs"][good["pairs"].size() - 1][1]);
     expect_refused(exchanged, "disagree");
     auto few = good;
-    few["pairs"] = {good["pairs"][0]};
+    few["pairs"] = nlohmann::json::array({good["pairs"][0]});
     few["stationary"] = nlohmann::json::array();
     expect_refused(few, "1 pair and 0 stationary vertices");
 }

@@ -49,7 +49,7 @@ TEST_F(BadLandmarks, MayHaveLeftAndRightExchangedInAPair) {
     Landmarks landmarks = good;
     std::swap(landmarks.pairs[1][0], landmarks.pairs[1][1]);
     expect_answer(landmarks, "pairs[1]");
-    expect_answer(landmarks, "the other way around");
+    expect_answer(landmarks, "in the opposite order");
     // Who does not mind the order is not told.
     std::swap(landmarks.pairs[2][0], landmarks.pairs[2][1]);
     std::swap(landmarks.pairs[3][0], landmarks.pairs[3][1]);

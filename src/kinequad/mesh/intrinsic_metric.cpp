@@ -38,6 +38,7 @@ std::array<double, 3> opposite_cotangents(const std::array<double, 3>& sides) {
     const double longest = std::max({sides[0], sides[1], sides[2]});
     const double area = std::max(triangle_area(sides), 1e-7 * longest * longest);
     std::array<double, 3> result{};
+    if (!(area > 0)) return result;
     for (std::size_t k = 0; k < 3; ++k) {
         const double left = sides[(k + 1) % 3];
         const double right = sides[(k + 2) % 3];

@@ -30,7 +30,8 @@ Eigen::Matrix<double, 2, 3> lay_out_triangle(const std::array<double, 3>& sides)
 double triangle_area(std::array<double, 3> sides);
 
 /// Cotangents of the angles opposite of the half-edges; the area is bounded from below, by 1e-7 of
-/// the square of the longest side, so that those of slivers stay finite.
+/// the square of the longest side, so that those of slivers stay finite; 0
+/// where all sides are.
 std::array<double, 3> opposite_cotangents(const std::array<double, 3>& sides);
 
 /// Angles at the corners of a triangle with the given sides, in radians; (0, 0, pi) or a

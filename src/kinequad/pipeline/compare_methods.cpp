@@ -45,7 +45,12 @@ std::optional<SymmetryMap> find_measuring_map(const FrameSource& source,
                                               const IntrinsicMetric& metric,
                                               const std::optional<Landmarks>& landmarks,
                                               const Positions& reference, const Context& context) {
-    if (landmarks) return find_symmetry(source, metric, landmarks, reference, context).map;
+    if (landmarks) {
+        // The methods have said what there is to say of the landmarks.
+        Context silent = context;
+        silent.log = nullptr;
+        return find_symmetry(source, metric, landmarks, reference, silent).map;
+    }
     try {
         return find_symmetry(source, metric, landmarks, reference, context).map;
     } catch (const InputError& error) {
@@ -262,7 +267,7 @@ std::vector<ComparedRecipe> comparison_recipes(const Options& base, bool has_lan
          animation_only, true},
         {"paper",
          is_symmetric ? "The method of Du and Tu to the letter."
-                      : "The method of Du and Tu; without landmarks or --symmetry its baseline.",
+                      : "The method of Du and Tu; without landmarks its baseline.",
          paper},
         {"kinequad", "Kinequad with its defaults.", base}};
 }

@@ -39,7 +39,9 @@ std::string grouped(std::size_t number) {
     return text;
 }
 
+/// A value as text; of a list its length.
 std::string cell_of(const nlohmann::ordered_json& value) {
+    if (value.is_array()) return std::to_string(value.size());
     if (value.is_string()) return value.get<std::string>();
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
     if (value.is_number_integer()) return std::to_string(value.get<long long>());

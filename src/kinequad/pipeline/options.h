@@ -37,8 +37,8 @@ struct Options {
 
     /// Empty: where there are landmarks `exact`, or `field` with the paper's field; else `none`.
     std::optional<SymmetryMode> symmetry;
-    int vertices =
-        5200;  ///< wanted number of quad vertices, met within 5 % where the surface lets it be
+    /// Wanted number of quad vertices, met within 5 % where the surface lets it be.
+    int vertices = 5200;
     double edge_length = 0;  ///< wanted quad edge length in units of the input; 0: from `vertices`
     /// Recipe of the cross field; `paper` is the energy and solver of Du and Tu.
     CrossFieldMethod field = CrossFieldMethod::convex;

@@ -25,6 +25,12 @@ namespace {
 
 constexpr int largest_evening_rounds = 8;
 
+/// The frame that is the reference among those that the run sees; -1 where it is none of them.
+int reference_frame_of(const Options& run) {
+    if (is_single_pose(run)) return 0;
+    return run.reference == Options::rest_shape ? -1 : run.reference;
+}
+
 /// Shapes in which the two sides are matched: the reference, which is frame `reference_frame` if
 /// any, and some other frames, evenly chosen.
 std::vector<Positions> matching_shapes(const FrameSource& frames, const Positions& reference,
@@ -178,9 +184,10 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
     const IntrinsicMetric& metric = surface.metric;
     const Positions& reference = surface.reference;
     const SymmetricHalf& side = result.domain.surface;
-    const std::vector<SurfacePoint> mirrored = mirror_points(
-        side, topology, metric, frames.triangles(),
-        matching_shapes(frames, reference, result.options.reference), half.vertex, context);
+    const std::vector<SurfacePoint> mirrored =
+        mirror_points(side, topology, metric, frames.triangles(),
+                      matching_shapes(frames, reference, reference_frame_of(result.options)),
+                      half.vertex, context);
     QuadMesh on_whole{half.Q, {}, {}};
     for (const SurfacePoint& point : half.vertex) {
         on_whole.vertex.push_back(point_of_input(side.mesh, point));
@@ -298,7 +305,8 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
         return map_and_extract(views, result, context, finish_stage);
     };
     const QuadMesh solved = solve_best_recipe(views, result, solve, context, finish_stage);
-    const bool are_tied = are_alike(views[0], views[1], half_topology, result.options.reference);
+    const bool are_tied =
+        are_alike(views[0], views[1], half_topology, reference_frame_of(result.options));
     const QuadMesh half_quads =
         are_tied ? relax_on_domain(result.domain, views, result.map.feature_edges, solved,
                                    result.options, context)

@@ -147,8 +147,8 @@ void warn_of_turned_pairs(const Landmarks& landmarks, const Eigen::VectorXd& hei
     if (many.size() < least_agreeing || few.size() * least_agreeing > many.size()) return;
     for (const std::size_t p : few) {
         context.write_log(LogLevel::warning,
-                          fmt::format("{}: {} names left and right the other way around than the "
-                                      "other pairs; the map is the same either way",
+                          fmt::format("{}: {} names left and right in the opposite order to most "
+                                      "pairs; the map is the same either way",
                                       landmarks.name, describe_landmark(landmarks, p)));
     }
 }

@@ -377,7 +377,8 @@ TEST(Program, DumpsWhatEveryStageMade) {
         EXPECT_GT(stage("metric")["edge_length"].size(), 0U);
         // Field, deformation of the last recipe and map are over one triangulation.
         const auto crosses = stage("field")["angle"].size();
-        for (const auto& parent : stage("map")["parent"]) ASSERT_LT(parent.get<int>(), crosses);
+        const auto map = stage("map");
+        for (const auto& parent : map["parent"]) ASSERT_LT(parent.get<std::size_t>(), crosses);
         if (mode == "none") {
             EXPECT_EQ(crosses, triangles);
             EXPECT_EQ(stage("deformation")["stretch_sum"].size(), triangles);

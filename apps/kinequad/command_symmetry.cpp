@@ -42,9 +42,9 @@ void find(const SymmetryCommand& command, Session& session) {
     const Positions reference =
         read_reference(*source, parse_reference(command.reference, *source));
     const Topology topology = build_topology(source->triangles(), source->vertex_count());
-    Options options;
-    options.metric = command.metric == "reference" ? MetricChoice::reference : MetricChoice::mean;
-    const IntrinsicMetric metric = choose_metric(*source, topology, reference, options, context);
+    const MetricChoice choice =
+        command.metric == "reference" ? MetricChoice::reference : MetricChoice::mean;
+    const IntrinsicMetric metric = choose_metric(*source, topology, reference, choice, context);
     const FoundSymmetry found = find_symmetry(*source, metric, landmarks, reference, context);
     write_file_atomically(command.output, format_symmetry_json(found.map));
     session.finish();

@@ -115,6 +115,12 @@ struct Grid {
         return least;
     }
 
+    /// Largest distance between the quads and the mesh as it is.
+    double farthest() const {
+        const std::vector<double> distances = sliding({{mesh.V, 1}}).distances({});
+        return *std::max_element(distances.begin(), distances.end());
+    }
+
     ClosestPoints surface() const { return {mesh.V, mesh.F}; }
 
     SlidingQuads sliding(std::vector<SampledFrame> frames) const {
@@ -366,8 +372,7 @@ TEST(CloseGaps, CoversASpikeThatOnlyAnotherFrameShows) {
     EXPECT_GT(grid.least_jacobian(sliding.quads(), bent), 0.1);
     Grid after = grid;
     after.quads = sliding.quads();
-    const std::vector<double> distances = after.sliding({{grid.mesh.V, 1}}).distances({});
-    const double farthest = *std::max_element(distances.begin(), distances.end());
+    const double farthest = after.farthest();
     EXPECT_LT(farthest, 0.45 / 6);
     // What it says is left, in units of the limit, is the distance in that frame.
     const double unit = 0.45 * grid.sliding({{grid.mesh.V, 1}}).mean_edge_length();
@@ -414,9 +419,8 @@ TEST(RelaxQuads, CoversATipAndLeavesTheRestSquare) {
     after.quads = relax_quads(grid.quads, {{sequence, grid.mesh.V}}, grid.topology, grid.metric,
                               {.distance_limit = 0.4}, {});
     grid.expect_kept(after.quads);
-    const std::vector<double> distances = after.sliding({{grid.mesh.V, 1}}).distances({});
     // The spike is 0.72 edges high; gaps are closed to about 0.45.
-    EXPECT_LT(*std::max_element(distances.begin(), distances.end()), 0.5 / 6);
+    EXPECT_LT(after.farthest(), 0.5 / 6);
     EXPECT_GT(grid.least_jacobian(after.quads, grid.mesh.V), 0.15);
     // The spike is one vertex of quads that are a sixth wide: those two away stay squares, nearly.
     for (const Eigen::Index quad : {0, 5, 30, 35}) {
@@ -438,8 +442,7 @@ TEST(RelaxQuads, SettlesInFramesBetweenTheSampledOnes) {
                                   {.sampled_frames = 3, .settling_frames = settling_frames}, {});
         grid.expect_kept(after.quads);
         EXPECT_GT(grid.least_jacobian(after.quads, flattened), 0.1);
-        const std::vector<double> distances = after.sliding({{grid.mesh.V, 1}}).distances({});
-        return *std::max_element(distances.begin(), distances.end());
+        return after.farthest();
     };
     // Of twelve frames three are 0, 4 and 8; four would be 0, 3, 6 and 9.
     for (const int too_few : {0, 3, 4}) EXPECT_GT(farthest(too_few), 0.6 / 6);
@@ -461,9 +464,7 @@ TEST(RelaxQuads, LooksAtTheFirstFrameWhateverTheReference) {
         after.quads = relax_quads(grid.quads, {{sequence, flattened}}, grid.topology, grid.metric,
                                   {.sampled_frames = 3, .reference_frame = reference}, {});
         grid.expect_kept(after.quads);
-        const std::vector<double> distances = after.sliding({{grid.mesh.V, 1}}).distances({});
-        EXPECT_LT(*std::max_element(distances.begin(), distances.end()), 0.5 / 6)
-            << "reference " << reference.value_or(-1);
+        EXPECT_LT(after.farthest(), 0.5 / 6) << "reference " << reference.value_or(-1);
     }
 }
 

@@ -36,6 +36,17 @@ Vector3 reflected(Vector3 p) {
     return p;
 }
 
+IntrinsicMetric metric_of_half(const HalfShape& it) {
+    const RefinedMesh& half = it.half.mesh;
+    Positions X(half.vertex_count, 3);
+    const std::vector<SurfacePoint> points = vertex_points(half);
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        X.row(static_cast<Eigen::Index>(v)) =
+            position_of(points[v], it.shape.mesh.V, it.shape.mesh.F).transpose();
+    }
+    return metric_of(build_topology(half.F, half.vertex_count), X);
+}
+
 /// Largest distance of the images of the half's vertices from their true places.
 double largest_error(const HalfShape& it, const std::vector<SurfacePoint>& images) {
     const TriangleMesh& mesh = it.shape.mesh;
@@ -87,14 +98,7 @@ TEST(SymmetricHalf, ImagesOfPointsAreTheirReflections) {
 TEST(EvenOutHalf, LeavesAnExactMapAlone) {
     const test::SymmetricShape shape = test::bumpy_ellipsoid(4);
     const HalfShape it = half_of(exact_map(shape.mesh), shape);
-    const Topology half = build_topology(it.half.mesh.F, it.half.mesh.vertex_count);
-    Positions X(it.half.mesh.vertex_count, 3);
-    const std::vector<SurfacePoint> points = vertex_points(it.half.mesh);
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        X.row(static_cast<Eigen::Index>(v)) =
-            position_of(points[v], shape.mesh.V, shape.mesh.F).transpose();
-    }
-    const auto images = even_out_half(it.half, metric_of(half, X), it.topology, it.metric, 5, {});
+    const auto images = even_out_half(it.half, metric_of_half(it), it.topology, it.metric, 5, {});
     EXPECT_LT(largest_error(it, images), 1e-6);
 }
 
@@ -104,21 +108,14 @@ TEST(EvenOutHalf, BringsDisplacedImagesBackAtAnyScale) {
         test::SymmetricShape shape = test::bumpy_ellipsoid(4);
         shape.mesh.V *= scale;
         HalfShape it = half_of(exact_map(shape.mesh), shape);
-        const Topology half = build_topology(it.half.mesh.F, it.half.mesh.vertex_count);
-        Positions X(it.half.mesh.vertex_count, 3);
-        const std::vector<SurfacePoint> points = vertex_points(it.half.mesh);
-        for (std::size_t v = 0; v < points.size(); ++v) {
-            X.row(static_cast<Eigen::Index>(v)) =
-                position_of(points[v], shape.mesh.V, shape.mesh.F).transpose();
-        }
         // Every image inside goes to the middle of a triangle beside it.
-        for (std::size_t v = 0; v < points.size(); ++v) {
+        for (std::size_t v = 0; v < it.half.mirrored.size(); ++v) {
             if (it.half.is_on_curve[v]) continue;
             it.half.mirrored[v].barycentric = Vector3::Constant(1.0 / 3);
         }
         const double before = largest_error(it, it.half.mirrored);
         const auto images =
-            even_out_half(it.half, metric_of(half, X), it.topology, it.metric, 20, {});
+            even_out_half(it.half, metric_of_half(it), it.topology, it.metric, 20, {});
         EXPECT_LT(largest_error(it, images), 0.3 * before);
     }
 }

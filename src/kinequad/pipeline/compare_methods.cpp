@@ -205,10 +205,8 @@ private:
     void measure() {
         topology_ = build_topology(source_.triangles(), source_.vertex_count());
         std::vector<ComparedMethod>& methods = result_.comparison.methods;
-        Options mean_lengths;
-        mean_lengths.metric = MetricChoice::mean;
         const IntrinsicMetric mean =
-            choose_metric(source_, topology_, reference_, mean_lengths, context_);
+            choose_metric(source_, topology_, reference_, MetricChoice::mean, context_);
         const std::optional<SymmetryMap> map =
             find_measuring_map(source_, mean, options_.landmarks, reference_, context_);
         for (std::size_t i = 0; map && i < methods.size(); ++i) {

@@ -109,8 +109,8 @@ ReportTable wall_and_cpu_times(const std::vector<StageTime>& times) {
 double symmetry_error_of(const Result& result, const QuadSequence& quads, const FrameSource& source,
                          const Context& context) {
     const SolvedInput input(source, result.topology, result.reference, result.refined);
-    const IntrinsicMetric metric =
-        choose_metric(input.frames(), input.topology(), input.reference(), result.options, context);
+    const IntrinsicMetric metric = choose_metric(
+        input.frames(), input.topology(), input.reference(), *result.options.metric, context);
     const StretchReference reference{input.reference(), input.frames().triangles(),
                                      triangle_sides(input.topology(), metric),
                                      quads.read_frame(0, result.reference), quads.faces};

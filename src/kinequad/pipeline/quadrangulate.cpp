@@ -193,13 +193,14 @@ Result quadrangulate(const FrameSource& source, const std::optional<Landmarks>& 
                      surface.name());
     }
     const FrameSource& frames = pose ? *pose : surface;
-    IntrinsicMetric metric = choose_metric(frames, topology, reference, result.options, context);
+    IntrinsicMetric metric =
+        choose_metric(frames, topology, reference, *result.options.metric, context);
     const bool is_choice_free = !options.metric && result.options.metric == MetricChoice::mean &&
                                 result.options.symmetry == SymmetryMode::none &&
                                 result.options.field == CrossFieldMethod::convex;
     if (is_choice_free && is_reference_better(frames, topology, metric, reference, context)) {
         result.options.metric = MetricChoice::reference;
-        metric = choose_metric(frames, topology, reference, result.options, context);
+        metric = choose_metric(frames, topology, reference, *result.options.metric, context);
     }
     check_areas(source, result.topology, metric_of(result.topology, result.reference));
     result.edge_length = result.options.edge_length > 0

@@ -207,9 +207,9 @@ RelaxOptions relax_options(const Options& run, int vertex_count) {
 }  // namespace
 
 IntrinsicMetric choose_metric(const FrameSource& frames, const Topology& topology,
-                              const Positions& reference, const Options& options,
+                              const Positions& reference, MetricChoice choice,
                               const Context& context) {
-    return widen_flat_triangles(topology, options.metric == MetricChoice::reference
+    return widen_flat_triangles(topology, choice == MetricChoice::reference
                                               ? metric_of(topology, reference)
                                               : compute_mean_metric(frames, topology, context));
 }

@@ -12,10 +12,10 @@
 
 namespace kinequad {
 
-/// The lengths that a surface with triangles `topology` is known by, as `options` ask for: those of
-/// the pose `reference` (n x 3), or the mean ones of `frames`.
+/// The lengths that a surface with triangles `topology` is known by: those of the pose `reference`
+/// (n x 3), or the mean ones of `frames`, with triangles kept from being flat.
 IntrinsicMetric choose_metric(const FrameSource& frames, const Topology& topology,
-                              const Positions& reference, const Options& options,
+                              const Positions& reference, MetricChoice choice,
                               const Context& context);
 
 /// An animation of the domain: the frames of its one side, or of the other.

@@ -147,7 +147,8 @@ public:
         domain_.surface.mesh = split.mesh;
         domain_.surface.is_on_curve = split.is_on_level;
         domain_.topology = build_topology(split.mesh.F, split.mesh.vertex_count);
-        domain_.metric = choose_metric(frames_, domain_.topology, reference_, run.options, context);
+        domain_.metric =
+            choose_metric(frames_, domain_.topology, reference_, *run.options.metric, context);
         domain_.feature_edges = feature_edges_of(split.mesh, domain_.topology, run);
     }
 
@@ -277,7 +278,8 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
         take_symmetric_half(topology, metric, result.symmetry->map, reference, frames.triangles());
     const Topology half_topology = build_topology(half.mesh.F, half.mesh.vertex_count);
     const auto length_of = [&](const CarriedSequence& side) {
-        return choose_metric(side, half_topology, side.carry(reference), result.options, context);
+        return choose_metric(side, half_topology, side.carry(reference), *result.options.metric,
+                             context);
     };
     const CarriedSequence near(frames, half.mesh.F, vertex_points(half.mesh));
     const IntrinsicMetric near_metric = length_of(near);

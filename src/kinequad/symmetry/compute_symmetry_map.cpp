@@ -54,46 +54,49 @@ std::vector<SurfacePoint> images_of_input(const ClosedSurface& surface,
     return images;
 }
 
+/// Makes the map of `some` of the landmarks and measures all of `landmarks` in it; nothing where
+/// `some` make no map.
+std::optional<LandmarkTrial> try_landmarks(const Prepared& prepared, const Landmarks& landmarks,
+                                           const SphereLandmarks& some, const Context& context) {
+    if (2 * some.pairs.size() + some.stationary.size() < 3) return std::nullopt;
+    const TriangleMesh& mesh = prepared.mesh;
+    const double percent = 100 / bounding_box_diagonal(mesh.V);
+    try {
+        const SphereSymmetry symmetry =
+            find_sphere_symmetry(prepared.surface, prepared.distances, prepared.sphere.points, some,
+                                 landmarks.name, context);
+        const SphereImages images =
+            locate_vertex_images(prepared.surface.topology, symmetry, context);
+        const std::vector<SurfacePoint> image =
+            images_of_input(prepared.surface, images_on_input(prepared.surface, images));
+        const auto distance = [&](int from, int to) {
+            const Vector3 there = position_of(image[at(from)], mesh.V, mesh.F);
+            return percent * (there - mesh.V.row(to).transpose()).norm();
+        };
+        LandmarkTrial trial{measure_involution(mesh, image), {}};
+        for (const auto& [a, b] : landmarks.pairs) {
+            trial.distance_percent.push_back(std::max(distance(a, b), distance(b, a)));
+        }
+        for (const int v : landmarks.stationary) trial.distance_percent.push_back(distance(v, v));
+        return trial;
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
 /// Looks for what is wrong where the map of all `landmarks`, on the sphere `marks`, is doubtful:
 /// throws where leaving one out or exchanging two mends it, else warns, or throws where it is no
 /// involution by far.
 void settle_doubt(const Prepared& prepared, const Landmarks& landmarks,
                   const SphereLandmarks& marks, const InvolutionError& with_all,
                   const SymmetryOptions& options, const Context& context) {
-    const TriangleMesh& mesh = prepared.mesh;
-    const double percent = 100 / bounding_box_diagonal(mesh.V);
     Context silent = context;
     silent.log = nullptr;
     silent.progress = nullptr;
-    const auto distance = [&](const SurfacePoint& image, int vertex) {
-        return percent *
-               (position_of(image, mesh.V, mesh.F) - mesh.V.row(vertex).transpose()).norm();
-    };
-    const auto try_landmarks = [&](const SphereLandmarks& some) -> std::optional<LandmarkTrial> {
-        if (2 * some.pairs.size() + some.stationary.size() < 3) return std::nullopt;
-        try {
-            const SphereSymmetry symmetry =
-                find_sphere_symmetry(prepared.surface, prepared.distances, prepared.sphere.points,
-                                     some, landmarks.name, silent);
-            const std::vector<SurfacePoint> image = images_of_input(
-                prepared.surface,
-                images_on_input(prepared.surface,
-                                locate_vertex_images(prepared.surface.topology, symmetry, silent)));
-            LandmarkTrial trial{measure_involution(mesh, image), {}};
-            for (const auto& [a, b] : landmarks.pairs) {
-                trial.distance_percent.push_back(
-                    std::max(distance(image[at(a)], b), distance(image[at(b)], a)));
-            }
-            for (const int v : landmarks.stationary) {
-                trial.distance_percent.push_back(distance(image[at(v)], v));
-            }
-            return trial;
-        } catch (const InputError&) {
-            return std::nullopt;
-        }
-    };
     const std::optional<LandmarkDoubt> doubt =
-        find_wrong_landmarks(marks, prepared.distances, with_all, try_landmarks);
+        find_wrong_landmarks(marks, prepared.distances, with_all, [&](const SphereLandmarks& some) {
+            return try_landmarks(prepared, landmarks, some, silent);
+        });
     std::vector<std::string> names;
     for (const std::size_t i : doubt ? doubt->landmarks : std::vector<std::size_t>{}) {
         names.push_back(describe_landmark(landmarks, i));

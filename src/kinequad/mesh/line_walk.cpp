@@ -90,7 +90,7 @@ int LineWalk::half_edge_at(const SurfacePoint& point) const {
 SurfacePoint LineWalk::seat(const SurfacePoint& point) const {
     const int e = edge_of(point);
     if (e < 0 || half_edge_at(point) >= 0) return point;
-    Eigen::Index corner = 0;
+    int corner = 0;
     point.barycentric.maxCoeff(&corner);
     const int v = topology_.origin[at(3 * point.triangle + corner)];
     const int h = topology_.edge_half_edge[at(e)];

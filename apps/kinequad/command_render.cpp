@@ -12,6 +12,7 @@
 #include "file_drawings.h"
 #include "input_options.h"
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/io/files.h"
 #include "kinequad/report/drawable_polygons.h"
 #include "kinequad/report/render_mesh.h"
@@ -169,7 +170,7 @@ void render_turntable(const RenderCommand& command, const Context& context) {
     panels.reserve(inputs.size());
     for (const DrawnInput& input : inputs) panels.push_back(input.panel(frame, cameras.front()));
     write_pictures(command, command.turntable, context, [&](int picture) {
-        for (RenderPanel& panel : panels) panel.camera = cameras[static_cast<std::size_t>(picture)];
+        for (RenderPanel& panel : panels) panel.camera = cameras[at(picture)];
         return panels;
     });
 }
@@ -185,7 +186,7 @@ void render_animation(const RenderCommand& command, const Context& context) {
         std::vector<RenderPanel> panels;
         panels.reserve(inputs.size());
         for (const DrawnInput& input : inputs) {
-            panels.push_back(input.panel(frames[static_cast<std::size_t>(picture)], camera));
+            panels.push_back(input.panel(frames[at(picture)], camera));
         }
         return panels;
     });

@@ -93,7 +93,7 @@ public:
         tensors.stretch_square_sum.resize(count);
         tensors.curvature = Eigen::VectorXcd::Zero(count);
         for (Eigen::Index t = 0; t < count; ++t) {
-            const Sums& sums = sums_[static_cast<std::size_t>(t)];
+            const Sums& sums = sums_[at(t)];
             tensors.stretch_direction_sum[t] = Complex(sums.stretch_re, sums.stretch_im);
             tensors.stretch_sum[t] = sums.stretch;
             tensors.stretch_square_sum[t] = sums.stretch_square;
@@ -108,8 +108,8 @@ private:
 
     TriangleStrain strain_at(const Positions& V, std::size_t t) const {
         const int* corner = topology_.origin.data() + 3 * t;
-        const auto at = [&](int k) { return V.data() + std::ptrdiff_t{3} * corner[k]; };
-        return strain_of(rest_[t], at(0), at(1), at(2));
+        const auto place = [&](int k) { return V.data() + std::ptrdiff_t{3} * corner[k]; };
+        return strain_of(rest_[t], place(0), place(1), place(2));
     }
 
     const Topology& topology_;
@@ -123,7 +123,7 @@ double quantile_of(std::vector<double>& values, double quantile) {
     const auto rank =
         static_cast<std::ptrdiff_t>(quantile * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return values[static_cast<std::size_t>(rank)];
+    return values[at(rank)];
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 
 namespace kinequad {
@@ -14,7 +15,7 @@ IntrinsicMetric compute_mean_metric(const FrameSource& frames, const Topology& t
     std::vector<int> ends(2 * edge_count);
     for (std::size_t e = 0; e < edge_count; ++e) {
         const int h = topology.edge_half_edge[e];
-        ends[2 * e] = topology.origin[static_cast<std::size_t>(h)];
+        ends[2 * e] = topology.origin[at(h)];
         ends[2 * e + 1] = topology.target(h);
     }
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(topology.edge_count);

@@ -1,5 +1,7 @@
 #include "kinequad/deformation/triangle_strain.h"
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 
 std::vector<RestTriangle> rest_triangles(const Topology& topology, const IntrinsicMetric& metric) {
@@ -11,8 +13,7 @@ std::vector<RestTriangle> rest_triangles(const Topology& topology, const Intrins
         const double height = corner(1, 2);
         // Thinner than this, the inverse is noise of the edge lengths.
         if (!(height > 1e-7 * base) || !(height > 1e-7 * std::abs(corner(0, 2)))) continue;
-        result[static_cast<std::size_t>(t)] = {1 / base, -corner(0, 2) / (base * height),
-                                               1 / height};
+        result[at(t)] = {1 / base, -corner(0, 2) / (base * height), 1 / height};
     }
     return result;
 }

@@ -48,7 +48,7 @@ Eigen::VectorXd solve_chain(const Topology& topology, const IntrinsicMetric& met
                             const Eigen::VectorXd& bend, const Chain& chain, double reach) {
     const auto count = static_cast<Eigen::Index>(chain.half_edges.size());
     const auto length = [&](Eigen::Index i) {
-        const int h = chain.half_edges[static_cast<std::size_t>(i)];
+        const int h = chain.half_edges[at(i)];
         return std::max(metric.edge_length[topology.edge[at(h)]], 1e-6 * reach);
     };
     std::vector<Eigen::Triplet<double>> entries;
@@ -58,7 +58,7 @@ Eigen::VectorXd solve_chain(const Topology& topology, const IntrinsicMetric& met
         const Eigen::Index next = (i + 1) % count;
         if (next == i || (next == 0 && !chain.is_closed)) continue;
         const double weight = 2 / (length(i) + length(next));
-        const int v = topology.target(chain.half_edges[static_cast<std::size_t>(i)]);
+        const int v = topology.target(chain.half_edges[at(i)]);
         entries.emplace_back(i, i, weight);
         entries.emplace_back(next, next, weight);
         entries.emplace_back(std::max(i, next), std::min(i, next), -weight);

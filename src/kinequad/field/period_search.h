@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kinequad/core/index.h"
 #include "kinequad/field/angle_solver.h"
 
 namespace kinequad {
@@ -22,9 +23,7 @@ public:
     double change(const Eigen::VectorXi& index, const Eigen::VectorXi& neighbours, int from, int to,
                   int change, bool joined) const;
 
-    bool is_tight(int edge) const {
-        return !tight_.empty() && tight_[static_cast<std::size_t>(edge)];
-    }
+    bool is_tight(int edge) const { return !tight_.empty() && tight_[at(edge)]; }
 
 private:
     double vertex_price(int vertex, int index) const;

@@ -1,5 +1,7 @@
 #include "kinequad/field/singularities.h"
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 
 std::vector<Singularity> list_singularities(const Topology& topology, const CrossField& field) {
@@ -14,7 +16,7 @@ std::vector<Singularity> list_singularities(const Topology& topology, const Cros
 int count_adjacent_singularities(const Topology& topology, const CrossField& field) {
     int count = 0;
     for (const int h : topology.edge_half_edge) {
-        const int a = topology.origin[static_cast<std::size_t>(h)];
+        const int a = topology.origin[at(h)];
         if (field.index[a] != 0 && field.index[topology.target(h)] != 0) ++count;
     }
     return count;

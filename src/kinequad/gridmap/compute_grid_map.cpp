@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/sort_unique.h"
 #include "kinequad/gridmap/map_component.h"
 #include "kinequad/gridmap/map_components.h"
@@ -48,7 +49,7 @@ std::vector<int> features_on_lines(const GridMap& map, const Topology& topology)
     for (std::size_t h = 0; h < map.is_line.size(); ++h) {
         if (map.is_line[h] != ChartedMesh::feature_line) continue;
         const int side = side_of_parent(map.mesh, static_cast<int>(h));
-        if (side >= 0) edges.push_back(topology.edge[static_cast<std::size_t>(side)]);
+        if (side >= 0) edges.push_back(topology.edge[at(side)]);
     }
     sort_unique(edges);
     return edges;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
 
@@ -21,9 +23,9 @@ bool is_positive(const GridMap& map, std::size_t t) {
 }
 
 double corner_angle(const GridMap& map, int half_edge) {
-    const auto at = [&](int h) { return map.corner[static_cast<std::size_t>(h)]; };
-    const Coordinate a = minus(at(Topology::next(half_edge)), at(half_edge));
-    const Coordinate b = minus(at(Topology::previous(half_edge)), at(half_edge));
+    const auto corner = [&](int h) { return map.corner[at(h)]; };
+    const Coordinate a = minus(corner(Topology::next(half_edge)), corner(half_edge));
+    const Coordinate b = minus(corner(Topology::previous(half_edge)), corner(half_edge));
     const auto real = [](std::int64_t x) { return static_cast<double>(x); };
     return std::atan2(real(a.u) * real(b.v) - real(a.v) * real(b.u),
                       real(a.u) * real(b.u) + real(a.v) * real(b.v));
@@ -63,8 +65,7 @@ GridMapReport verify_grid_map(const GridMap& map) {
 
     for (std::size_t h = 0; h < 3 * triangles; ++h) {
         const Coordinate from = map.corner[h];
-        const Coordinate to =
-            map.corner[static_cast<std::size_t>(Topology::next(static_cast<int>(h)))];
+        const Coordinate to = map.corner[at(Topology::next(static_cast<int>(h)))];
         if (topology.twin[h] < 0 || (!map.is_line.empty() && map.is_line[h])) {
             const bool on_line =
                 (from.u == to.u && is_whole(from.u)) || (from.v == to.v && is_whole(from.v));
@@ -75,19 +76,18 @@ GridMapReport verify_grid_map(const GridMap& map) {
         const GridMap::Transition& across = map.transition[h];
         report.fractional_translations += is_whole(across.translation) ? 0 : 1;
         const bool matches =
-            across(from) ==
-                map.corner[static_cast<std::size_t>(Topology::next(static_cast<int>(other)))] &&
+            across(from) == map.corner[at(Topology::next(static_cast<int>(other)))] &&
             across(to) == map.corner[other];
         report.broken_transitions += matches ? 0 : 1;
     }
 
     for (int v = 0; v < topology.vertex_count; ++v) {
-        if (topology.vertex_half_edge[static_cast<std::size_t>(v)] < 0) continue;
+        if (topology.vertex_half_edge[at(v)] < 0) continue;
         double angle = 0;
         bool whole = true;
         for (const int h : outgoing_half_edges(topology, v)) {
             angle += corner_angle(map, h);
-            whole = whole && is_whole(map.corner[static_cast<std::size_t>(h)]);
+            whole = whole && is_whole(map.corner[at(h)]);
         }
         const int quarters = (topology.is_boundary_vertex(v) ? 2 : 4) - map.index[v];
         report.wrong_cone_angles += std::abs(angle - quarters * std::numbers::pi / 2) < 0.1 ? 0 : 1;

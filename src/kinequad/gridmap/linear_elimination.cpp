@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
 
@@ -59,13 +61,11 @@ public:
         return static_cast<int>(definition_.size()) - 1;
     }
     int count() const { return static_cast<int>(definition_.size()); }
-    bool is_defined(int variable) const {
-        return is_defined_[static_cast<std::size_t>(variable)] != 0;
-    }
+    bool is_defined(int variable) const { return is_defined_[at(variable)] != 0; }
 
     void define(int variable, LinearForm<Number> form) {
-        is_defined_[static_cast<std::size_t>(variable)] = 1;
-        definition_[static_cast<std::size_t>(variable)] = std::move(form);
+        is_defined_[at(variable)] = 1;
+        definition_[at(variable)] = std::move(form);
     }
 
     /// The form in variables that are not defined.
@@ -88,13 +88,13 @@ private:
     const LinearForm<Number>& resolved(int variable) {
         std::vector<int> stack = {variable};
         while (!stack.empty()) {
-            auto& form = definition_[static_cast<std::size_t>(stack.back())];
+            auto& form = definition_[at(stack.back())];
             int pending = -1;
             bool stale = false;
             for (const auto& term : form) {
                 if (!is_defined(term.first)) continue;
                 stale = true;
-                const auto& inner = definition_[static_cast<std::size_t>(term.first)];
+                const auto& inner = definition_[at(term.first)];
                 const bool inner_stale = std::any_of(
                     inner.begin(), inner.end(), [&](const auto& t) { return is_defined(t.first); });
                 if (inner_stale) {
@@ -113,15 +113,14 @@ private:
                 }
                 for (const auto& [inner, coefficient] : form) {
                     if (is_defined(inner)) {
-                        fresh = add_scaled(fresh, coefficient,
-                                           definition_[static_cast<std::size_t>(inner)]);
+                        fresh = add_scaled(fresh, coefficient, definition_[at(inner)]);
                     }
                 }
                 form = std::move(fresh);
             }
             stack.pop_back();
         }
-        return definition_[static_cast<std::size_t>(variable)];
+        return definition_[at(variable)];
     }
 
     std::vector<LinearForm<Number>> definition_;
@@ -134,12 +133,12 @@ Elimination<Number> collect(Substitution<Number>& substitution, int variable_cou
     std::vector<int> free_number(static_cast<std::size_t>(substitution.count()), -1);
     for (int v = 0; v < substitution.count(); ++v) {
         if (substitution.is_defined(v)) continue;
-        free_number[static_cast<std::size_t>(v)] = result.free_count++;
+        free_number[at(v)] = result.free_count++;
         result.free_variable.push_back(v < variable_count ? v : -1);
     }
     for (int v = 0; v < variable_count; ++v) {
         LinearForm<Number> form = substitution.expand({{v, Number{1}}});
-        for (auto& term : form) term.first = free_number[static_cast<std::size_t>(term.first)];
+        for (auto& term : form) term.first = free_number[at(term.first)];
         result.solution.push_back(std::move(form));
     }
     return result;
@@ -165,8 +164,8 @@ Elimination<double> eliminate_reals(int variable_count, const std::vector<Linear
         if (row.empty()) continue;
         std::size_t pivot = 0;
         for (std::size_t i = 1; i < row.size(); ++i) {
-            const int here = priority[static_cast<std::size_t>(row[i].first)];
-            const int best = priority[static_cast<std::size_t>(row[pivot].first)];
+            const int here = priority[at(row[i].first)];
+            const int best = priority[at(row[pivot].first)];
             const bool is_larger = std::abs(row[i].second) > std::abs(row[pivot].second);
             if (here < best || (here == best && is_larger)) pivot = i;
         }
@@ -180,7 +179,7 @@ Elimination<long> eliminate_integers(int variable_count, const std::vector<Linea
     Substitution<long> substitution(variable_count);
     const auto priority_of = [&](int v) {
         // New variables stand for combinations of others: keep them free where there is a choice.
-        return v < variable_count ? priority[static_cast<std::size_t>(v)] : 1 << 20;
+        return v < variable_count ? priority[at(v)] : 1 << 20;
     };
     for (const auto& given : rows) {
         LinearForm<long> row = substitution.expand(given);

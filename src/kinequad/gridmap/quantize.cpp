@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 
 namespace kinequad {
 namespace {
@@ -87,7 +88,7 @@ private:
     std::vector<int> free_unknowns() const {
         std::vector<int> free;
         for (int i = 0; i < best_.size(); ++i) {
-            if (!is_fixed_[static_cast<std::size_t>(i)]) free.push_back(i);
+            if (!is_fixed_[at(i)]) free.push_back(i);
         }
         return free;
     }
@@ -109,7 +110,7 @@ private:
         // Most unknowns are fixed for most of the time.
         LinearForm<double> moving;
         for (const auto& [i, gi] : gradient) {
-            const int row = place[static_cast<std::size_t>(i)];
+            const int row = place[at(i)];
             if (row >= 0) moving.emplace_back(row, gi);
         }
         for (const auto& [row, gi] : moving) {
@@ -125,8 +126,7 @@ private:
         const std::vector<int> free = free_unknowns();
         if (free.empty()) return;
         std::vector<int> place(is_fixed_.size(), -1);
-        for (std::size_t i = 0; i < free.size(); ++i)
-            place[static_cast<std::size_t>(free[i])] = static_cast<int>(i);
+        for (std::size_t i = 0; i < free.size(); ++i) place[at(free[i])] = static_cast<int>(i);
         double before = energy();
         for (int i = 0; i < most_steps; ++i) {
             context_.check_cancelled();
@@ -189,12 +189,12 @@ private:
                 continue;
             }
             if (!fix(i, compliance)) {
-                deferred[static_cast<std::size_t>(i)] = 1;
+                deferred[at(i)] = 1;
                 continue;
             }
             const Eigen::VectorXd column = compliance.col(i) / std::sqrt(compliance(i, i));
             compliance.noalias() -= column * column.transpose();
-            is_fixed_[static_cast<std::size_t>(i)] = 1;
+            is_fixed_[at(i)] = 1;
             if (++since_room == 10) {
                 since_room = 0;
                 make_room(3);
@@ -221,10 +221,10 @@ private:
             for (int t = 0; t < cone_.triangle_count(); ++t) {
                 const LinearForm<double> form = cone_.determinant_gradient(t);
                 const bool is_near = std::any_of(form.begin(), form.end(), [&](const auto& term) {
-                    return is_fixed_[static_cast<std::size_t>(term.first)] == 0;
+                    return is_fixed_[at(term.first)] == 0;
                 });
                 if (!is_near) continue;
-                for (const auto& term : form) is_fixed[static_cast<std::size_t>(term.first)] = 0;
+                for (const auto& term : form) is_fixed[at(term.first)] = 0;
             }
             is_fixed_ = std::move(is_fixed);
         }
@@ -234,8 +234,7 @@ private:
         int best = -1;
         double least = std::numeric_limits<double>::infinity();
         for (int i = 0; i < best_.size(); ++i) {
-            if (is_fixed_[static_cast<std::size_t>(i)] || deferred[static_cast<std::size_t>(i)])
-                continue;
+            if (is_fixed_[at(i)] || deferred[at(i)]) continue;
             const double value = cone_.integers()[i];
             const double delta = std::round(value) - value;
             const double cost = delta * delta / compliance(i, i);
@@ -258,7 +257,7 @@ private:
                 Eigen::VectorXd step =
                     compliance.col(i) * (follow * (whole - value) / compliance(i, i));
                 for (int j = 0; j < step.size(); ++j) {
-                    if (is_fixed_[static_cast<std::size_t>(j)]) step[j] = 0;
+                    if (is_fixed_[at(j)]) step[j] = 0;
                 }
                 step[i] = whole - value;
                 if (!move(step)) continue;

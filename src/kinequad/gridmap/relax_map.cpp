@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/solve/minimum_degree_order.h"
 
 namespace kinequad {
@@ -120,21 +121,17 @@ public:
                                     shapes_[t].anticonformal_part(&corners[3 * t]));
         }
         SparseMatrix hessian = system_.assemble(
-            [&](int t) {
-                return hessian_of(shapes_[static_cast<std::size_t>(t)],
-                                  local[static_cast<std::size_t>(t)]);
-            },
-            2 * weight_);
+            [&](int t) { return hessian_of(shapes_[at(t)], local[at(t)]); }, 2 * weight_);
         Eigen::VectorXd gradient = system_.gather([&](int t) -> Vector6 {
-            const TargetShape& shape = shapes_[static_cast<std::size_t>(t)];
-            const LocalEnergy& e = local[static_cast<std::size_t>(t)];
+            const TargetShape& shape = shapes_[at(t)];
+            const LocalEnergy& e = local[at(t)];
             return shape.area *
                    (shape.functional(e.slope_a, false) + shape.functional(e.slope_b, true));
         });
         if (weight_ > 0) {
             const Eigen::VectorXd away = whole_values(chain(x)) - whole_goal_;
             for (int i = 0; i < variables_.position_count; ++i) {
-                for (const auto& [c, f] : variables_.whole[static_cast<std::size_t>(i)]) {
+                for (const auto& [c, f] : variables_.whole[at(i)]) {
                     gradient[variables_.vertex_columns + c] += 2 * weight_ * f * away[i];
                 }
             }
@@ -206,7 +203,7 @@ public:
         Eigen::VectorXd values(variables_.position_count + variables_.chain_columns);
         for (int i = 0; i < variables_.position_count; ++i) {
             values[i] = 0;
-            for (const auto& [c, f] : variables_.whole[static_cast<std::size_t>(i)]) {
+            for (const auto& [c, f] : variables_.whole[at(i)]) {
                 values[i] += f * chain_values[c];
             }
         }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/solve/minimum_degree_order.h"
 
 namespace kinequad {
@@ -67,8 +68,8 @@ public:
     LeastSquaresMap(const MapVariables& variables, TriangleSystem& system,
                     const std::vector<TargetShape>& shapes, const PartWeights& weights)
         : variables_(variables), system_(system), shapes_(shapes), weights_(weights) {
-        SparseMatrix lower = system.assemble(
-            [&](int t) { return quadratic_matrix(shapes[static_cast<std::size_t>(t)], weights); });
+        SparseMatrix lower =
+            system.assemble([&](int t) { return quadratic_matrix(shapes[at(t)], weights); });
         order_ = chains_last(lower, variables.vertex_columns);
         SparseMatrix ordered(lower.rows(), lower.cols());
         ordered.selfadjointView<Eigen::Lower>() =
@@ -83,8 +84,8 @@ public:
     /// triangle.
     Eigen::VectorXd solve(const std::vector<std::pair<Complex, Complex>>& parts) const {
         const Eigen::VectorXd right = system_.gather([&](int t) -> Vector6 {
-            const TargetShape& shape = shapes_[static_cast<std::size_t>(t)];
-            const auto& [a, b] = parts[static_cast<std::size_t>(t)];
+            const TargetShape& shape = shapes_[at(t)];
+            const auto& [a, b] = parts[at(t)];
             return 4 * shape.area *
                    (shape.functional({a.real(), weights_.turn * a.imag()}, false) +
                     shape.functional({b.real(), weights_.shear * b.imag()}, true));

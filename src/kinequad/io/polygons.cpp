@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 
 namespace kinequad {
 namespace {
@@ -51,7 +52,7 @@ Quads require_quads(const Polygons& faces, const std::string& name) {
                 fmt::format("{}: face {} has {} corners; a mesh of quads only is needed here", name,
                             f, face.size()));
         }
-        for (int k = 0; k < 4; ++k) Q(f, k) = face[static_cast<std::size_t>(k)];
+        for (int k = 0; k < 4; ++k) Q(f, k) = face[at(k)];
     }
     return Q;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/types.h"
 
 namespace kinequad {
@@ -17,7 +18,7 @@ struct Polygons {
     int count() const { return static_cast<int>(offset.size()) - 1; }
     /// The vertex indices of face `face`.
     std::span<const int> operator[](int face) const {
-        const auto first = static_cast<std::size_t>(offset[static_cast<std::size_t>(face)]);
+        const auto first = static_cast<std::size_t>(offset[at(face)]);
         const auto last = static_cast<std::size_t>(offset[static_cast<std::size_t>(face) + 1]);
         return {corners.data() + first, last - first};
     }

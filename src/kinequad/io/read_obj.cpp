@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "kinequad/core/index.h"
 #include "kinequad/io/text_scanner.h"
 
 namespace kinequad {
@@ -132,8 +133,7 @@ private:
         for (int f = 0; f < mesh_.faces.count(); ++f) {
             for (const int vertex : mesh_.faces[f]) {
                 if (vertex < known) continue;
-                fail_index(face_position_[static_cast<std::size_t>(f)], std::int64_t{vertex} + 1,
-                           known);
+                fail_index(face_position_[at(f)], std::int64_t{vertex} + 1, known);
             }
         }
     }

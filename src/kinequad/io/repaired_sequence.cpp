@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinequad/core/index.h"
 #include "kinequad/mesh/flat_triangles.h"
 
 namespace kinequad {
@@ -51,7 +52,7 @@ Positions RepairedSequence::extend(Positions V) const {
     const Eigen::Index n = V.rows();
     V.conservativeResize(n + copies, 3);
     for (Eigen::Index i = 0; i < copies; ++i) {
-        V.row(n + i) = V.row(repair_.copied_vertices[static_cast<std::size_t>(i)]);
+        V.row(n + i) = V.row(repair_.copied_vertices[at(i)]);
     }
     return V;
 }
@@ -61,7 +62,7 @@ Triangles RepairedSequence::input_triangles() const {
     const int n = source_.vertex_count();
     for (Eigen::Index i = 0; i < F.size(); ++i) {
         int& v = F.data()[i];
-        if (v >= n) v = repair_.copied_vertices[static_cast<std::size_t>(v - n)];
+        if (v >= n) v = repair_.copied_vertices[at(v - n)];
     }
     return F;
 }

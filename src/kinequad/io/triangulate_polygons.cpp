@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
 
@@ -123,7 +125,7 @@ Triangles triangulate_polygons(const Positions& V, const Polygons& faces) {
     Triangles F(static_cast<Eigen::Index>(triangles.size()), 3);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         for (int k = 0; k < 3; ++k) {
-            F(static_cast<Eigen::Index>(t), k) = triangles[t][static_cast<std::size_t>(k)];
+            F(static_cast<Eigen::Index>(t), k) = triangles[t][at(k)];
         }
     }
     return F;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 #include "kinequad/mesh/closest_point_on_triangle.h"
 #include "kinequad/mesh/triangle_mesh.h"
@@ -102,8 +103,7 @@ private:
     void visit_vertices(std::vector<int>& hints) {
         vertex_distance_.assign(hints.size(), 0);
         std::vector<char> is_used(hints.size(), 0);
-        for (Eigen::Index i = 0; i < F_.size(); ++i)
-            is_used[static_cast<std::size_t>(F_.data()[i])] = 1;
+        for (Eigen::Index i = 0; i < F_.size(); ++i) is_used[at(F_.data()[i])] = 1;
         const std::size_t blocks = (hints.size() + block_size - 1) / block_size;
         std::vector<double> largest(blocks, 0);
         std::vector<int> used(blocks, 0);
@@ -201,8 +201,8 @@ private:
                               3;
         const double largest_before = tolerated(largest_);
         double sum = 0;
-        int& center_hint = center_hints[static_cast<std::size_t>(t)];
-        int hint = center_hint >= 0 ? center_hint : hints[static_cast<std::size_t>(F_(t, 0))];
+        int& center_hint = center_hints[at(t)];
+        int hint = center_hint >= 0 ? center_hint : hints[at(F_(t, 0))];
         std::array<Found, 3> at_corner;
         for (std::size_t k = 0; n == 1 && k < 3; ++k) {
             const auto v = static_cast<std::size_t>(F_(t, static_cast<int>(k)));
@@ -229,8 +229,7 @@ private:
         // With this share for the corners the rule is exact for quadratic functions.
         const double corner_weight = 1.0 / (9.0 * n * n + 3);
         double corner_sum = 0;
-        for (int k = 0; k < 3; ++k)
-            corner_sum += vertex_distance_[static_cast<std::size_t>(F_(t, k))];
+        for (int k = 0; k < 3; ++k) corner_sum += vertex_distance_[at(F_(t, k))];
         const double mean =
             corner_weight * corner_sum + (1 - 3 * corner_weight) * sum / (double(n) * n);
         block.area += area;

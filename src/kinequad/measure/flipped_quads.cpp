@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 #include "kinequad/measure/triangulation.h"
 #include "kinequad/mesh/triangle_mesh.h"
@@ -39,8 +40,8 @@ int count_flipped_quads(const Positions& X, const Polygons& faces, const Closest
     for (int f = 0; f < faces.count(); ++f) {
         if (degree_of(faces, f) != 4) continue;
         ++quads;
-        if (sign[static_cast<std::size_t>(f)] < 0) ++against;
-        if (sign[static_cast<std::size_t>(f)] > 0) ++along;
+        if (sign[at(f)] < 0) ++against;
+        if (sign[at(f)] > 0) ++along;
     }
     return 2 * against > quads ? along : against;
 }

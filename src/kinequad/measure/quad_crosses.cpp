@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "kinequad/core/index.h"
 #include "kinequad/measure/triangulation.h"
 
 namespace kinequad {
@@ -73,7 +74,7 @@ QuadCrosses::Cross QuadCrosses::find(const SurfacePoint& point, int hint) const 
     const Vector3 ac = V.row(triangle[2]).transpose() - a;
     const Vector3 place = a + point.barycentric[1] * ab + point.barycentric[2] * ac;
     const int nearest = surface_.find(place, hint).point.triangle;
-    const int face = face_[static_cast<std::size_t>(nearest)];
+    const int face = face_[at(nearest)];
     if (degree_of(reference_.faces, face) != 4) return {0, nearest};
     return {cross_over(reference_.X, reference_.faces, face, ab, ac, rest_shape(point.triangle)),
             nearest};

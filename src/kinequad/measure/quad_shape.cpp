@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "kinequad/core/index.h"
 #include "kinequad/measure/triangulation.h"
 
 namespace kinequad {
@@ -22,7 +23,7 @@ QuadShapeMetrics measure_shape(const Positions& V, const Polygons& faces) {
         ++count;
         std::array<Vector3, 4> corner;
         for (int k = 0; k < 4; ++k) {
-            corner[static_cast<std::size_t>(k)] = V.row(vertex_of(faces, f, k)).transpose();
+            corner[at(k)] = V.row(vertex_of(faces, f, k)).transpose();
         }
         const Vector3 vector_area = (corner[2] - corner[0]).cross(corner[3] - corner[1]);
         const Vector3 normal = vector_area / vector_area.norm();

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "kinequad/core/index.h"
 #include "kinequad/io/polygons.h"
 
 namespace kinequad {
@@ -11,9 +12,7 @@ inline int degree_of(const Polygons& faces, int face) {
     return static_cast<int>(faces[face].size());
 }
 /// Vertex of corner `k` of a face, 0 <= k < its degree.
-inline int vertex_of(const Polygons& faces, int face, int k) {
-    return faces[face][static_cast<std::size_t>(k)];
-}
+inline int vertex_of(const Polygons& faces, int face, int k) { return faces[face][at(k)]; }
 
 /// Throws `InputError` (mesh), naming the face, where a face has fewer than three corners or names
 /// a vertex that is not among the `vertex_count`, and where there is no face.

@@ -105,8 +105,7 @@ public:
         split_.mesh.F = Eigen::Map<const Triangles>(corner_.data(), count, 3);
         split_.mesh.barycentric.resize(3 * count, 3);
         for (Eigen::Index row = 0; row < 3 * count; ++row) {
-            split_.mesh.barycentric.row(row) =
-                barycentric_[static_cast<std::size_t>(row)].transpose();
+            split_.mesh.barycentric.row(row) = barycentric_[at(row)].transpose();
         }
         return std::move(split_);
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/deformation/mean_shear.h"
 #include "kinequad/extract/verify_quad_mesh.h"
 #include "kinequad/gridmap/compute_grid_map.h"
@@ -69,10 +70,10 @@ void check_areas(const FrameSource& source, const Topology& topology,
     Eigen::VectorXd area_of_component =
         Eigen::VectorXd::Zero(1 + *std::max_element(component.begin(), component.end()));
     for (int t = 0; t < topology.triangle_count; ++t) {
-        area_of_component[component[static_cast<std::size_t>(t)]] += areas[t];
+        area_of_component[component[at(t)]] += areas[t];
     }
     for (int t = 0; t < topology.triangle_count; ++t) {
-        const double area = area_of_component[component[static_cast<std::size_t>(t)]];
+        const double area = area_of_component[component[at(t)]];
         if (area > 0 && std::isfinite(area)) continue;
         throw InputError(
             InputFault::mesh,
@@ -88,10 +89,9 @@ void require_symmetric_detail(const FrameSource& source, const Topology& topolog
     const std::vector<int> component = triangle_components(topology);
     std::vector<int> count(
         static_cast<std::size_t>(1 + *std::max_element(component.begin(), component.end())), 0);
-    for (const int c : component) ++count[static_cast<std::size_t>(c)];
+    for (const int c : component) ++count[at(c)];
     for (int t = 0; t < topology.triangle_count; ++t) {
-        const int triangles =
-            count[static_cast<std::size_t>(component[static_cast<std::size_t>(t)])];
+        const int triangles = count[at(component[at(t)])];
         if (triangles >= least_triangles) continue;
         throw InputError(
             InputFault::symmetry,

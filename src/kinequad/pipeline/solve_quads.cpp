@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/deformation/compute_deformation_tensors.h"
 #include "kinequad/deformation/compute_mean_metric.h"
 #include "kinequad/extract/extract_quads.h"
@@ -71,28 +72,26 @@ bool price_crowds(const Topology& topology, const IntrinsicMetric& metric, doubl
     std::vector<int> singular(static_cast<std::size_t>(parts), 0);
     std::vector<int> part_of_vertex(static_cast<std::size_t>(topology.vertex_count), -1);
     for (int t = 0; t < topology.triangle_count; ++t) {
-        const int p = part[static_cast<std::size_t>(t)];
-        quads[static_cast<std::size_t>(p)] += areas[t] / (edge_length * edge_length);
+        const int p = part[at(t)];
+        quads[at(p)] += areas[t] / (edge_length * edge_length);
         for (int h = 3 * t; h < 3 * t + 3; ++h) {
-            part_of_vertex[static_cast<std::size_t>(topology.origin[static_cast<std::size_t>(h)])] =
-                p;
+            part_of_vertex[at(topology.origin[at(h)])] = p;
         }
     }
     // Corners of the boundary have to be where they are.
     const auto is_counted = [&](int v) {
-        return part_of_vertex[static_cast<std::size_t>(v)] >= 0 && !topology.is_boundary_vertex(v);
+        return part_of_vertex[at(v)] >= 0 && !topology.is_boundary_vertex(v);
     };
     for (int v = 0; v < topology.vertex_count; ++v) {
-        if (is_counted(v) && field.index[v] != 0)
-            ++singular[static_cast<std::size_t>(part_of_vertex[static_cast<std::size_t>(v)])];
+        if (is_counted(v) && field.index[v] != 0) ++singular[at(part_of_vertex[at(v)])];
     }
     bool found = false;
     cost_factor.resize(static_cast<std::size_t>(topology.vertex_count), 1);
     for (int v = 0; v < topology.vertex_count; ++v) {
         if (!is_counted(v)) continue;
-        const auto p = static_cast<std::size_t>(part_of_vertex[static_cast<std::size_t>(v)]);
+        const auto p = static_cast<std::size_t>(part_of_vertex[at(v)]);
         if (singular[p] * least_room <= quads[p]) continue;
-        cost_factor[static_cast<std::size_t>(v)] *= increase;
+        cost_factor[at(v)] *= increase;
         found = true;
     }
     return found;

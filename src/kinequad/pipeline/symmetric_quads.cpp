@@ -60,7 +60,7 @@ std::vector<FixedDirection> curve_directions(const LevelSplit& split, const Topo
             return split.is_on_level[at(split.mesh.F.data()[c])] != 0;
         };
         if (!on_curve(corner) || !on_curve(next)) continue;
-        const int t = split.mesh.parent[static_cast<std::size_t>(corner / 3)];
+        const int t = split.mesh.parent[at(corner / 3)];
         int& wanted = is_wanted[at(t)];
         if (wanted || known[at(t)]) {
             wanted = 1;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad {
 namespace {
 
@@ -42,7 +44,7 @@ Triangles cut_quads(const Quads& Q, const Positions& X) {
     Triangles F(2 * Q.rows(), 3);
     for (Eigen::Index q = 0; q < Q.rows(); ++q) {
         QuadCorners p;
-        for (int i = 0; i < 4; ++i) p[static_cast<std::size_t>(i)] = X.row(Q(q, i)).transpose();
+        for (int i = 0; i < 4; ++i) p[at(i)] = X.row(Q(q, i)).transpose();
         const int k = static_cast<int>(end_of_cut(p));
         F.row(2 * q) << Q(q, k), Q(q, k + 1), Q(q, k + 2);
         F.row(2 * q + 1) << Q(q, k), Q(q, k + 2), Q(q, (k + 3) % 4);

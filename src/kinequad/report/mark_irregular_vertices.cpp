@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinequad/core/index.h"
 #include "kinequad/report/render_mesh.h"
 
 namespace kinequad {
@@ -15,7 +16,7 @@ std::vector<RenderMarker> mark_irregular_vertices(const Quads& Q, int vertex_cou
         for (int k = 0; k < 4; ++k) {
             const int from = Q(q, k);
             const int to = Q(q, (k + 1) % 4);
-            ++quads_around[static_cast<std::size_t>(from)];
+            ++quads_around[at(from)];
             sides.emplace_back(std::min(from, to), std::max(from, to));
         }
     }
@@ -25,8 +26,8 @@ std::vector<RenderMarker> mark_irregular_vertices(const Quads& Q, int vertex_cou
         std::size_t end = i;
         while (end < sides.size() && sides[end] == sides[i]) ++end;
         if (end == i + 1) {
-            on_boundary[static_cast<std::size_t>(sides[i].first)] = true;
-            on_boundary[static_cast<std::size_t>(sides[i].second)] = true;
+            on_boundary[at(sides[i].first)] = true;
+            on_boundary[at(sides[i].second)] = true;
         }
         i = end;
     }

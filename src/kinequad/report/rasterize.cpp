@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad::report_detail {
 namespace {
 
@@ -18,9 +20,9 @@ struct Box {
 };
 
 Box box_of(const ScreenScene& scene, const ScreenTriangle& triangle) {
-    const auto& a = scene.vertices[static_cast<std::size_t>(triangle.vertex[0])];
-    const auto& b = scene.vertices[static_cast<std::size_t>(triangle.vertex[1])];
-    const auto& c = scene.vertices[static_cast<std::size_t>(triangle.vertex[2])];
+    const auto& a = scene.vertices[at(triangle.vertex[0])];
+    const auto& b = scene.vertices[at(triangle.vertex[1])];
+    const auto& c = scene.vertices[at(triangle.vertex[2])];
     return {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}),
             std::max({a.y, b.y, c.y})};
 }
@@ -109,10 +111,10 @@ float smaller(float a, float b) { return a < b ? a : b; }
 float larger(float a, float b) { return a > b ? a : b; }
 
 void draw_triangle(const ScreenScene& scene, int index, const PixelRange& range, Samples& samples) {
-    const auto& triangle = scene.triangles[static_cast<std::size_t>(index)];
+    const auto& triangle = scene.triangles[at(index)];
     std::array<ScreenVertex, 3> corner;
     for (std::size_t k = 0; k < 3; ++k) {
-        corner[k] = scene.vertices[static_cast<std::size_t>(triangle.vertex[k])];
+        corner[k] = scene.vertices[at(triangle.vertex[k])];
     }
     // Signed distance to each side, positive inside, in pixels.
     std::array<Plane, 3> side{};
@@ -216,9 +218,8 @@ const SamplePattern& sample_pattern() {
         SamplePattern made{};
         for (int i = 0; i < sample_count; ++i) {
             const int reversed = (i & 1) << 3 | (i & 2) << 1 | (i & 4) >> 1 | (i & 8) >> 3;
-            const auto at = static_cast<std::size_t>(i);
-            made.x[at] = (static_cast<float>(i) + 0.5F) / sample_count - 0.5F;
-            made.y[at] = (static_cast<float>(reversed) + 0.5F) / sample_count - 0.5F;
+            made.x[at(i)] = (static_cast<float>(i) + 0.5F) / sample_count - 0.5F;
+            made.y[at(i)] = (static_cast<float>(reversed) + 0.5F) / sample_count - 0.5F;
         }
         return made;
     }();
@@ -244,15 +245,15 @@ std::vector<Hit> rasterize_tile(const ScreenScene& scene, const TileLists& tiles
     const std::size_t count = size * size * sample_count;
     Samples samples{std::vector<float>(count, -std::numeric_limits<float>::infinity()),
                     std::vector<Hit>(count)};
-    const auto at = static_cast<std::size_t>(tile);
-    for (std::size_t i = tiles.triangle_begin[at]; i < tiles.triangle_begin[at + 1]; ++i) {
+    const std::size_t here = at(tile);
+    for (std::size_t i = tiles.triangle_begin[here]; i < tiles.triangle_begin[here + 1]; ++i) {
         const int index = tiles.triangles[i];
-        const Box box = box_of(scene, scene.triangles[static_cast<std::size_t>(index)]);
+        const Box box = box_of(scene, scene.triangles[at(index)]);
         draw_triangle(scene, index, clip(box, scene, tiles, tile), samples);
     }
-    for (std::size_t i = tiles.stroke_begin[at]; i < tiles.stroke_begin[at + 1]; ++i) {
+    for (std::size_t i = tiles.stroke_begin[here]; i < tiles.stroke_begin[here + 1]; ++i) {
         const int index = tiles.strokes[i];
-        const ScreenStroke& stroke = scene.strokes[static_cast<std::size_t>(index)];
+        const ScreenStroke& stroke = scene.strokes[at(index)];
         draw_stroke(stroke, index, clip(box_of(stroke), scene, tiles, tile), samples);
     }
     return std::move(samples.hit);

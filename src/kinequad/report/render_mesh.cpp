@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 #include "kinequad/report/rasterize.h"
 #include "kinequad/report/shade.h"
@@ -117,8 +118,8 @@ double line_opacity(double area, double usual_area, double line_width) {
 
 void add_polygon(const RenderScene& scene, Eigen::Index p, ScreenScene& screen) {
     const auto corner = [&](int k) { return scene.polygons(p, k); };
-    const auto at = [&](int k) -> const ScreenVertex& {
-        return screen.vertices[static_cast<std::size_t>(corner(k))];
+    const auto on_screen = [&](int k) -> const ScreenVertex& {
+        return screen.vertices[at(corner(k))];
     };
     struct Piece {
         std::array<int, 3> corners;
@@ -142,7 +143,7 @@ void add_polygon(const RenderScene& scene, Eigen::Index p, ScreenScene& screen) 
     }
     for (const Piece& piece : pieces) {
         const auto [a, b, c] = piece.corners;
-        const double twice = doubled_area(at(a), at(b), at(c));
+        const double twice = doubled_area(on_screen(a), on_screen(b), on_screen(c));
         if (!(std::abs(twice) > 1e-9)) continue;
         // With y down, a triangle that faces the viewer runs clockwise in pixels.
         ScreenTriangle triangle;
@@ -163,17 +164,16 @@ void add_polygon(const RenderScene& scene, Eigen::Index p, ScreenScene& screen) 
 void fade_lines(const RenderOptions& options, std::size_t polygon_count, ScreenScene& screen) {
     std::vector<double> area(polygon_count, 0);
     for (const ScreenTriangle& triangle : screen.triangles) {
-        const auto at = [&](std::size_t k) -> const ScreenVertex& {
-            return screen.vertices[static_cast<std::size_t>(triangle.vertex[k])];
+        const auto corner = [&](std::size_t k) -> const ScreenVertex& {
+            return screen.vertices[at(triangle.vertex[k])];
         };
-        area[static_cast<std::size_t>(triangle.polygon)] +=
-            0.5 * std::abs(doubled_area(at(0), at(1), at(2)));
+        area[at(triangle.polygon)] += 0.5 * std::abs(doubled_area(corner(0), corner(1), corner(2)));
     }
     double sum = 0;
     for (const double a : area) sum += a;
     const double usual = sum / static_cast<double>(std::max<std::size_t>(polygon_count, 1));
     for (ScreenTriangle& triangle : screen.triangles) {
-        const double own = area[static_cast<std::size_t>(triangle.polygon)];
+        const double own = area[at(triangle.polygon)];
         triangle.line_opacity =
             options.draw_edges ? static_cast<float>(line_opacity(own, usual, options.edge_width))
                                : 0;
@@ -208,9 +208,9 @@ Prepared prepare(const RenderScene& scene, const Camera& camera, const RenderOpt
     for (const RenderMarker& marker : scene.markers) {
         // The bias would show dots of the far side through thin parts.
         if (prepared.normals(marker.vertex, 2) < -0.05) continue;
-        const ScreenVertex& at = screen.vertices[static_cast<std::size_t>(marker.vertex)];
+        const ScreenVertex& middle = screen.vertices[at(marker.vertex)];
         screen.strokes.push_back(
-            {at, at, options.marker_radius, 2 * options.marker_radius, marker.color});
+            {middle, middle, options.marker_radius, 2 * options.marker_radius, marker.color});
     }
     return prepared;
 }
@@ -236,7 +236,7 @@ public:
     }
 
     /// Linear light of a pixel of row `y` that shows nothing else.
-    const Vector3& background(int y) const { return background_[static_cast<std::size_t>(y)]; }
+    const Vector3& background(int y) const { return background_[at(y)]; }
 
     /// Linear light of the pixel at `x`, `y`.
     Vector3 pixel(const Hit* hits, int x, int y) const {
@@ -267,22 +267,19 @@ public:
     }
 
 private:
-    const Vector3& stroke_color(int index) const {
-        return strokes_[static_cast<std::size_t>(index)];
-    }
+    const Vector3& stroke_color(int index) const { return strokes_[at(index)]; }
 
     Vector3 on_line(int index, const Vector3& face) const {
-        const auto opacity = static_cast<double>(
-            prepared_.screen.triangles[static_cast<std::size_t>(index)].line_opacity);
+        const auto opacity =
+            static_cast<double>(prepared_.screen.triangles[at(index)].line_opacity);
         return (1 - opacity) * face + opacity * line_;
     }
 
     Vector3 face_color(int index, double x, double y) const {
-        const ScreenTriangle& triangle =
-            prepared_.screen.triangles[static_cast<std::size_t>(index)];
+        const ScreenTriangle& triangle = prepared_.screen.triangles[at(index)];
         std::array<const ScreenVertex*, 3> corner{};
         for (std::size_t k = 0; k < 3; ++k) {
-            corner[k] = &prepared_.screen.vertices[static_cast<std::size_t>(triangle.vertex[k])];
+            corner[k] = &prepared_.screen.vertices[at(triangle.vertex[k])];
         }
         const ScreenVertex here{x, y, 0};
         Vector3 normal = Vector3::Zero();
@@ -295,8 +292,7 @@ private:
         if (triangle.seen_from_behind) normal = -normal;
         const double length = normal.norm();
         normal = length > 0 ? Vector3(normal / length) : Vector3(Vector3::UnitZ());
-        Vector3 albedo =
-            polygons_.empty() ? surface_ : polygons_[static_cast<std::size_t>(triangle.polygon)];
+        Vector3 albedo = polygons_.empty() ? surface_ : polygons_[at(triangle.polygon)];
         // The inside of an open surface is told from its outside by a warmer, darker tone.
         if (triangle.seen_from_behind) albedo = albedo.cwiseProduct(Vector3(0.62, 0.45, 0.36));
         return shade(albedo, normal);

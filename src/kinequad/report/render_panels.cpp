@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/report/draw_text.h"
 
 namespace kinequad {
@@ -22,7 +23,7 @@ Image render_panels(const std::vector<RenderPanel>& panels, int columns,
     const bool any_caption = std::any_of(panels.begin(), panels.end(),
                                          [](const auto& panel) { return !panel.caption.empty(); });
     for (int i = 0; i < count; ++i) {
-        const RenderPanel& panel = panels[static_cast<std::size_t>(i)];
+        const RenderPanel& panel = panels[at(i)];
         const int left =
             static_cast<int>(static_cast<long long>(i % columns) * options.width / columns);
         const int right =

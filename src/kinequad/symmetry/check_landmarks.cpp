@@ -21,7 +21,7 @@ double disagreement(const SurfaceDistances& distances, const Mark& i, const Mark
     const auto from = [&](int source, int vertex) {
         const auto found = std::find(distances.source.begin(), distances.source.end(), source);
         const auto row = static_cast<std::size_t>(found - distances.source.begin());
-        return distances.distance[row][static_cast<std::size_t>(vertex)];
+        return distances.distance[row][at(vertex)];
     };
     const double straight = std::abs(from(i[0], j[0]) - from(i[1], j[1]));
     const double crossed = std::abs(from(i[0], j[1]) - from(i[1], j[0]));

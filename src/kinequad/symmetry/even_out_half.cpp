@@ -162,8 +162,7 @@ private:
             const auto place = std::find(patch.triangle.begin(), patch.triangle.end(),
                                          image_[at(around[i])].triangle);
             if (place == patch.triangle.end()) return sight;
-            const auto& corners = patch.corners[static_cast<std::size_t>(
-                std::distance(patch.triangle.begin(), place))];
+            const auto& corners = patch.corners[at(std::distance(patch.triangle.begin(), place))];
             const Vector2 axis = corners.col(1) - corners.col(0);
             const double length = axis.norm();
             if (!(length > 0)) return sight;

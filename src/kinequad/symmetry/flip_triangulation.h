@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "kinequad/core/index.h"
 #include "kinequad/mesh/intrinsic_metric.h"
 
 namespace kinequad {
@@ -17,8 +18,8 @@ struct FlipTriangulation {
 
     static int next(int h) { return Topology::next(h); }
     static int previous(int h) { return Topology::previous(h); }
-    int target(int h) const { return origin[static_cast<std::size_t>(next(h))]; }
-    int opposite(int h) const { return origin[static_cast<std::size_t>(previous(h))]; }
+    int target(int h) const { return origin[at(next(h))]; }
+    int opposite(int h) const { return origin[at(previous(h))]; }
 };
 
 FlipTriangulation make_flip_triangulation(const Topology& topology, const IntrinsicMetric& metric);

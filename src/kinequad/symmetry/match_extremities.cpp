@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "kinequad/core/index.h"
 #include "kinequad/mesh/edge_distances.h"
 #include "kinequad/symmetry/locate_on_sphere.h"
 #include "kinequad/symmetry/warp_to_landmarks.h"
@@ -40,7 +41,7 @@ SphereLandmarks match_extremities(const Topology& topology, const IntrinsicMetri
     std::vector<Choice> choice(count);
     for (std::size_t i = 0; i < count; ++i) {
         const SurfacePoint image = image_of(ends[i], 0);
-        const int start = topology.vertex_half_edge[static_cast<std::size_t>(ends[i])] / 3;
+        const int start = topology.vertex_half_edge[at(ends[i])] / 3;
         for (int k = 0; k < 3; ++k) {
             const int corner = topology.origin[3 * static_cast<std::size_t>(image.triangle) +
                                                static_cast<std::size_t>(k)];

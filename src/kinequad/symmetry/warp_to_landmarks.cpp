@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 
 namespace kinequad {
@@ -41,11 +42,10 @@ SpherePoints warp_to_landmarks(const SpherePoints& points, const SphereLandmarks
     RealMatrix right = RealMatrix::Zero(count + 1, 3);
     for (Eigen::Index i = 0; i < count; ++i) {
         for (Eigen::Index j = 0; j < count; ++j) {
-            A(i, j) =
-                kernel(centre[static_cast<std::size_t>(i)], centre[static_cast<std::size_t>(j)]);
+            A(i, j) = kernel(centre[at(i)], centre[at(j)]);
         }
         A(i, count) = A(count, i) = 1;
-        right.row(i) = move[static_cast<std::size_t>(i)].transpose();
+        right.row(i) = move[at(i)].transpose();
     }
     const RealMatrix weight = A.fullPivLu().solve(right);
     SpherePoints result(points.rows(), 3);
@@ -56,8 +56,7 @@ SpherePoints warp_to_landmarks(const SpherePoints& points, const SphereLandmarks
                          const RealVector3 x = points.row(row).transpose();
                          RealVector3 moved = x + weight.row(count).transpose();
                          for (Eigen::Index i = 0; i < count; ++i) {
-                             moved += kernel(x, centre[static_cast<std::size_t>(i)]) *
-                                      weight.row(i).transpose();
+                             moved += kernel(x, centre[at(i)]) * weight.row(i).transpose();
                          }
                          result.row(row) = moved.normalized().transpose();
                      }

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinequad/core/index.h"
 #include "kinequad/synth/creature.h"
 
 namespace kinequad::synth_detail {
@@ -112,36 +113,35 @@ Pose walk_at(const std::vector<Bone>& bones, const BipedBones& s, double phase) 
     const double angle = 2 * std::numbers::pi * phase;
     Pose pose;
     pose.rotation.assign(bones.size(), Eigen::Quaterniond::Identity());
-    const auto at = [&](int bone) -> Eigen::Quaterniond& {
-        return pose.rotation[static_cast<std::size_t>(bone)];
-    };
+    const auto rotation = [&](int bone) -> Eigen::Quaterniond& { return pose.rotation[at(bone)]; };
     const double sway = std::cos(angle);
     const double shift = std::sin(angle);
-    at(s.pelvis) = turn_y(-7 * sway) * turn_z(3 * shift) * turn_x(4);
-    at(s.spine) = turn_y(8 * sway) * turn_z(-3.5 * shift) * turn_x(1);
-    at(s.chest) = turn_y(8 * sway) * turn_z(-1 * shift) * turn_x(1 + 1.5 * std::cos(2 * angle));
-    at(s.neck) = turn_y(-4 * sway) * turn_x(-2);
-    at(s.head) = turn_y(-3 * sway + 4 * shift) * turn_x(-3 + 2 * std::cos(2 * angle + 1));
+    rotation(s.pelvis) = turn_y(-7 * sway) * turn_z(3 * shift) * turn_x(4);
+    rotation(s.spine) = turn_y(8 * sway) * turn_z(-3.5 * shift) * turn_x(1);
+    rotation(s.chest) =
+        turn_y(8 * sway) * turn_z(-1 * shift) * turn_x(1 + 1.5 * std::cos(2 * angle));
+    rotation(s.neck) = turn_y(-4 * sway) * turn_x(-2);
+    rotation(s.head) = turn_y(-3 * sway + 4 * shift) * turn_x(-3 + 2 * std::cos(2 * angle + 1));
     pose.shift = Vector3(0.018 * shift, 0, 0.012 * std::cos(2 * angle));
 
     const Vector3 elbow_axis = Vector3(-0.743, -0.669, 0).normalized();
     const auto pose_side = [&](double stride, auto bone, auto side) {
         const Leg leg = leg_at(stride);
-        at(bone(s.thigh)) = side(turn_x(-leg.hip) * turn_z(-1.5));
-        at(bone(s.shin)) = side(turn_x(leg.knee));
-        at(bone(s.foot)) = side(turn_x(-leg.ankle) * turn_y(5));
-        at(bone(s.toes)) = side(turn_x(-leg.toes));
+        rotation(bone(s.thigh)) = side(turn_x(-leg.hip) * turn_z(-1.5));
+        rotation(bone(s.shin)) = side(turn_x(leg.knee));
+        rotation(bone(s.foot)) = side(turn_x(-leg.ankle) * turn_y(5));
+        rotation(bone(s.toes)) = side(turn_x(-leg.toes));
         const double swing = std::cos(2 * std::numbers::pi * (stride + 0.5));
         const double elbow = 38 + 24 * std::cos(2 * std::numbers::pi * (stride + 0.46));
-        at(bone(s.upper_arm)) = side(turn_x(-26 * swing + 5) * turn_z(-27 - 3 * swing));
-        at(bone(s.forearm)) =
+        rotation(bone(s.upper_arm)) = side(turn_x(-26 * swing + 5) * turn_z(-27 - 3 * swing));
+        rotation(bone(s.forearm)) =
             side(Eigen::Quaterniond(Eigen::AngleAxisd(elbow * std::numbers::pi / 180, elbow_axis)));
-        at(bone(s.hand)) = side(turn_z(-6 - 8 * swing));
+        rotation(bone(s.hand)) = side(turn_z(-6 - 8 * swing));
     };
     pose_side(
         phase, [](int bone) { return bone; }, [](const Eigen::Quaterniond& q) { return q; });
     pose_side(
-        phase + 0.5, [&](int bone) { return bones[static_cast<std::size_t>(bone)].mirror; },
+        phase + 0.5, [&](int bone) { return bones[at(bone)].mirror; },
         [](const Eigen::Quaterniond& q) { return mirrored(q); });
     return pose;
 }

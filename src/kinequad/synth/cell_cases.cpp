@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad::synth_detail {
 namespace {
 
@@ -30,15 +32,15 @@ CellCase make_case(unsigned mask) {
     std::array<int, 12> root{};
     std::iota(root.begin(), root.end(), 0);
     const auto find = [&](int edge) {
-        while (root[static_cast<std::size_t>(edge)] != edge) {
-            edge = root[static_cast<std::size_t>(edge)];
+        while (root[at(edge)] != edge) {
+            edge = root[at(edge)];
         }
         return edge;
     };
     const auto join = [&](int a, int b) {
         const int first = find(a);
         const int second = find(b);
-        root[static_cast<std::size_t>(std::max(first, second))] = std::min(first, second);
+        root[at(std::max(first, second))] = std::min(first, second);
     };
     for (int axis = 0; axis < 3; ++axis) {
         for (int place = 0; place < 2; ++place) {
@@ -64,9 +66,9 @@ CellCase make_case(unsigned mask) {
     for (int edge = 0; edge < 12; ++edge) {
         const auto [a, b] = cell_edge_corners(edge);
         if (inside(a) == inside(b)) continue;
-        int& piece = number[static_cast<std::size_t>(find(edge))];
+        int& piece = number[at(find(edge))];
         if (piece < 0) piece = made.piece_count++;
-        made.piece[static_cast<std::size_t>(edge)] = piece;
+        made.piece[at(edge)] = piece;
     }
     return made;
 }

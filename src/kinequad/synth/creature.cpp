@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad::synth_detail {
 namespace {
 
@@ -24,7 +26,7 @@ int CreatureBuilder::add_bone(int parent, const Vector3& joint) {
 
 int CreatureBuilder::add_bone_pair(int parent, const Vector3& joint) {
     const int left = static_cast<int>(creature.bones.size());
-    const int other_parent = creature.bones[static_cast<std::size_t>(parent)].mirror;
+    const int other_parent = creature.bones[at(parent)].mirror;
     creature.bones.push_back({parent, joint, left + 1});
     creature.bones.push_back({other_parent, reflect(joint), left});
     return left;
@@ -39,9 +41,9 @@ void CreatureBuilder::add_tube_pair(const Tube& tube) {
     other.stretch = flip * tube.stretch * flip;
     for (TubePoint& point : other.points) {
         point.center = reflect(point.center);
-        point.bone = creature.bones[static_cast<std::size_t>(point.bone)].mirror;
+        point.bone = creature.bones[at(point.bone)].mirror;
         if (point.other >= 0) {
-            point.other = creature.bones[static_cast<std::size_t>(point.other)].mirror;
+            point.other = creature.bones[at(point.other)].mirror;
         }
     }
     creature.tubes.push_back(other);
@@ -49,8 +51,7 @@ void CreatureBuilder::add_tube_pair(const Tube& tube) {
 
 void CreatureBuilder::add_contact_pair(int bone, const Vector3& point) {
     creature.contacts.push_back({bone, point});
-    creature.contacts.push_back(
-        {creature.bones[static_cast<std::size_t>(bone)].mirror, reflect(point)});
+    creature.contacts.push_back({creature.bones[at(bone)].mirror, reflect(point)});
 }
 
 Eigen::Matrix3d stretch_along(const Vector3& direction, double factor) {
@@ -68,12 +69,10 @@ Eigen::Quaterniond mirrored(const Eigen::Quaterniond& rotation) {
 
 double cyclic_curve(const std::vector<double>& keys, double phase) {
     const auto count = static_cast<int>(keys.size());
-    const double at = (phase - std::floor(phase)) * count;
-    const int first = static_cast<int>(at);
-    const double t = at - first;
-    const auto key = [&](int i) {
-        return keys[static_cast<std::size_t>(((first + i) % count + count) % count)];
-    };
+    const double place = (phase - std::floor(phase)) * count;
+    const int first = static_cast<int>(place);
+    const double t = place - first;
+    const auto key = [&](int i) { return keys[at(((first + i) % count + count) % count)]; };
     const double from_slope = 0.5 * (key(1) - key(-1));
     const double to_slope = 0.5 * (key(2) - key(0));
     const double t2 = t * t;

@@ -4,6 +4,7 @@
 #include <queue>
 #include <tuple>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/sort_unique.h"
 #include "kinequad/synth/half_mesh.h"
 
@@ -22,7 +23,7 @@ public:
         around_.resize(mesh.vertices.size());
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
             for (const int v : mesh.triangles[t]) {
-                around_[static_cast<std::size_t>(v)].push_back(static_cast<int>(t));
+                around_[at(v)].push_back(static_cast<int>(t));
             }
         }
         for (const Vector3& point : mesh.vertices) {
@@ -55,35 +56,29 @@ public:
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
             if (alive_[t] == 0) continue;
             const auto [a, b, c] = mesh_.triangles[t];
-            kept.triangles.push_back({number[static_cast<std::size_t>(a)],
-                                      number[static_cast<std::size_t>(b)],
-                                      number[static_cast<std::size_t>(c)]});
+            kept.triangles.push_back({number[at(a)], number[at(b)], number[at(c)]});
         }
         return kept;
     }
 
 private:
-    const Vector3& at(int v) const { return mesh_.vertices[static_cast<std::size_t>(v)]; }
-    bool in_plane(int v) const { return mesh_.in_plane[static_cast<std::size_t>(v)] != 0; }
-    std::vector<int>& around(int v) { return around_[static_cast<std::size_t>(v)]; }
-    const std::array<int, 3>& corners(int t) const {
-        return mesh_.triangles[static_cast<std::size_t>(t)];
-    }
+    const Vector3& place(int v) const { return mesh_.vertices[at(v)]; }
+    bool in_plane(int v) const { return mesh_.in_plane[at(v)] != 0; }
+    std::vector<int>& around(int v) { return around_[at(v)]; }
+    const std::array<int, 3>& corners(int t) const { return mesh_.triangles[at(t)]; }
     bool has(int t, int v) const {
         const auto& c = corners(t);
         return c[0] == v || c[1] == v || c[2] == v;
     }
 
     double cost_of(int a, int b) const {
-        return (at(a) - at(b)).norm() * 0.5 *
-               (refinement_[static_cast<std::size_t>(a)] +
-                refinement_[static_cast<std::size_t>(b)]);
+        return (place(a) - place(b)).norm() * 0.5 * (refinement_[at(a)] + refinement_[at(b)]);
     }
 
     /// Neighbours of a vertex, ascending.
     std::vector<int> neighbors(int v) const {
         std::vector<int> found;
-        for (const int t : around_[static_cast<std::size_t>(v)]) {
+        for (const int t : around_[at(v)]) {
             for (const int w : corners(t)) {
                 if (w != v) found.push_back(w);
             }
@@ -107,7 +102,7 @@ private:
             std::array<Vector3, 3> now;
             std::array<Vector3, 3> then;
             for (std::size_t k = 0; k < 3; ++k) {
-                now[k] = at(corners(t)[k]);
+                now[k] = place(corners(t)[k]);
                 then[k] = corners(t)[k] == v ? target : now[k];
             }
             const Vector3 before = (now[1] - now[0]).cross(now[2] - now[0]);
@@ -141,29 +136,31 @@ private:
                 }
             }
         }
-        Vector3 target = at(a);
+        Vector3 target = place(a);
         if (in_plane(a) == in_plane(b)) {
-            const Vector3 middle = 0.5 * (at(a) + at(b));
-            target = body_.project(middle, both, body_.select(middle, (at(a) - at(b)).norm()));
+            const Vector3 middle = 0.5 * (place(a) + place(b));
+            target =
+                body_.project(middle, both, body_.select(middle, (place(a) - place(b)).norm()));
         }
-        if (!both && !in_plane(a) && target.x() <= 0.25 * std::min(at(a).x(), at(b).x())) return;
+        if (!both && !in_plane(a) && target.x() <= 0.25 * std::min(place(a).x(), place(b).x()))
+            return;
         if (!stays_sound(a, b, target) || !stays_sound(b, a, target)) return;
         for (const int t : around(b)) {
             if (has(t, a)) {
-                alive_[static_cast<std::size_t>(t)] = 0;
+                alive_[at(t)] = 0;
                 --triangle_count_;
                 for (const int v : corners(t)) {
                     if (v != b) std::erase(around(v), t);
                 }
             } else {
-                for (int& v : mesh_.triangles[static_cast<std::size_t>(t)]) {
+                for (int& v : mesh_.triangles[at(t)]) {
                     if (v == b) v = a;
                 }
                 around(a).push_back(t);
             }
         }
         around(b).clear();
-        mesh_.vertices[static_cast<std::size_t>(a)] = target;
+        mesh_.vertices[at(a)] = target;
         push_edges(a, false);
     }
 

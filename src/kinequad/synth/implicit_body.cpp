@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad::synth_detail {
 namespace {
 
@@ -77,7 +79,7 @@ void ImplicitBody::add_tube(const Tube& tube) {
     Axis axis{tube.stretch, 1 / tube.stretch.operatorNorm(), {}};
     const int last = static_cast<int>(tube.points.size()) - 1;
     const auto point = [&](int i) -> const TubePoint& {
-        return tube.points[static_cast<std::size_t>(std::clamp(i, 0, last))];
+        return tube.points[at(std::clamp(i, 0, last))];
     };
     const auto radius = [&](int i) { return point(i).radius; };
     for (int span = 0; span < last; ++span) {
@@ -114,7 +116,7 @@ void ImplicitBody::add_tube(const Tube& tube) {
 }
 
 ImplicitBody::Closest ImplicitBody::closest(const Segment& segment, const Vector3& point) const {
-    const Axis& axis = axes_[static_cast<std::size_t>(segment.tube)];
+    const Axis& axis = axes_[at(segment.tube)];
     const Vector3 offset = axis.stretch * point - segment.from;
     const double along =
         std::clamp(offset.dot(segment.along) * segment.inverse_squared_length, 0.0, 1.0);
@@ -127,9 +129,9 @@ ImplicitSample ImplicitBody::distance_to(const Axis& axis, const Vector3& point,
                                          double place) const {
     const Vector3 target = axis.stretch * point;
     const auto last = static_cast<double>(axis.spans.size());
-    const auto split = [&](double at) {
-        const double span = std::min(std::floor(at), last - 1);
-        return std::pair(static_cast<std::size_t>(span), at - span);
+    const auto split = [&](double place) {
+        const double span = std::min(std::floor(place), last - 1);
+        return std::pair(static_cast<std::size_t>(span), place - span);
     };
     // The tube is the envelope of the spheres along its axis, which is smooth also where round caps
     // begin. Newton's method for the sphere whose surface is nearest, guarded to descend.
@@ -164,13 +166,13 @@ ImplicitBody::Selection ImplicitBody::select(const Vector3& center, double radiu
     double nearest_of_all = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < segments_.size(); ++i) {
         distance[i] = closest(segments_[i], center).distance;
-        double& of_tube = nearest[static_cast<std::size_t>(segments_[i].tube)];
+        double& of_tube = nearest[at(segments_[i].tube)];
         of_tube = std::min(of_tube, distance[i]);
         nearest_of_all = std::min(nearest_of_all, distance[i]);
     }
     Selection selection;
     for (std::size_t i = 0; i < segments_.size(); ++i) {
-        const double of_tube = nearest[static_cast<std::size_t>(segments_[i].tube)];
+        const double of_tube = nearest[at(segments_[i].tube)];
         if (distance[i] <= of_tube + reach &&
             of_tube <= nearest_of_all + reach + far_blends * blend_) {
             selection.push_back(static_cast<int>(i));
@@ -189,11 +191,11 @@ ImplicitSample ImplicitBody::sample(const Vector3& point, const Selection& selec
     double sum = 0;
     Vector3 gradient = Vector3::Zero();
     for (std::size_t i = 0; i < selection.size();) {
-        const int tube = segments_[static_cast<std::size_t>(selection[i])].tube;
+        const int tube = segments_[at(selection[i])].tube;
         double nearest = std::numeric_limits<double>::infinity();
         double place = 0;
         for (; i < selection.size(); ++i) {
-            const Segment& segment = segments_[static_cast<std::size_t>(selection[i])];
+            const Segment& segment = segments_[at(selection[i])];
             if (segment.tube != tube) break;
             const Closest found = closest(segment, point);
             if (found.distance < nearest) {
@@ -203,8 +205,7 @@ ImplicitSample ImplicitBody::sample(const Vector3& point, const Selection& selec
         }
         // A tube too far to count is not worth the exact distance.
         if (nearest - 0.01 > least + far_blends * blend_) continue;
-        const auto [distance, slope] =
-            distance_to(axes_[static_cast<std::size_t>(tube)], point, place);
+        const auto [distance, slope] = distance_to(axes_[at(tube)], point, place);
         if (distance < least) {
             const double shrink = std::exp((distance - least) / blend_);
             sum = sum * shrink + 1;
@@ -243,12 +244,10 @@ BoneWeights ImplicitBody::bone_weights(const Vector3& point) const {
         const double share = std::exp((least - found[i].distance) / skin_blend_);
         if (share < 1e-5) continue;
         for (const BoneWeight& entry : segments_[i].from_bones) {
-            total[static_cast<std::size_t>(entry.bone)].weight +=
-                share * (1 - found[i].along) * entry.weight;
+            total[at(entry.bone)].weight += share * (1 - found[i].along) * entry.weight;
         }
         for (const BoneWeight& entry : segments_[i].to_bones) {
-            total[static_cast<std::size_t>(entry.bone)].weight +=
-                share * found[i].along * entry.weight;
+            total[at(entry.bone)].weight += share * found[i].along * entry.weight;
         }
     }
     std::stable_sort(total.begin(), total.end(),
@@ -272,7 +271,7 @@ double ImplicitBody::local_radius(const Vector3& point) const {
         const Closest here = closest(segment, point);
         if (here.distance >= least) continue;
         least = here.distance;
-        radius = axes_[static_cast<std::size_t>(segment.tube)].scale *
+        radius = axes_[at(segment.tube)].scale *
                  (segment.from_radius + here.along * (segment.to_radius - segment.from_radius));
     }
     return radius;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 #include "kinequad/mesh/topology.h"
 #include "kinequad/synth/half_mesh.h"
@@ -40,15 +41,10 @@ public:
     const std::vector<int>& twin() const { return twin_; }
 
 private:
-    int& corner(int half_edge) {
-        return mesh_.triangles[static_cast<std::size_t>(half_edge / 3)]
-                              [static_cast<std::size_t>(half_edge % 3)];
-    }
-    const Vector3& at(int vertex) const { return mesh_.vertices[static_cast<std::size_t>(vertex)]; }
-    bool in_plane(int vertex) const {
-        return mesh_.in_plane[static_cast<std::size_t>(vertex)] != 0;
-    }
-    int& twin_of(int half_edge) { return twin_[static_cast<std::size_t>(half_edge)]; }
+    int& corner(int half_edge) { return mesh_.triangles[at(half_edge / 3)][at(half_edge % 3)]; }
+    const Vector3& place(int vertex) const { return mesh_.vertices[at(vertex)]; }
+    bool in_plane(int vertex) const { return mesh_.in_plane[at(vertex)] != 0; }
+    int& twin_of(int half_edge) { return twin_[at(half_edge)]; }
 
     bool should_flip(int h) {
         const int g = twin_of(h);
@@ -57,10 +53,10 @@ private:
         const int c = corner(Topology::previous(h));
         const int d = corner(Topology::previous(g));
         if (in_plane(c) && in_plane(d)) return false;
-        const Vector3 ca = at(a) - at(c);
-        const Vector3 cb = at(b) - at(c);
-        const Vector3 da = at(a) - at(d);
-        const Vector3 db = at(b) - at(d);
+        const Vector3 ca = place(a) - place(c);
+        const Vector3 cb = place(b) - place(c);
+        const Vector3 da = place(a) - place(d);
+        const Vector3 db = place(b) - place(d);
         const Vector3 first = ca.cross(cb);
         const Vector3 second = db.cross(da);
         // Sine of the sum of the two angles, without their sines' common length.
@@ -68,7 +64,7 @@ private:
         const double size = ca.norm() * cb.norm() * da.norm() * db.norm();
         if (sine >= -1e-6 * size) return false;
         const Vector3 normal = first.normalized() + second.normalized();
-        const Vector3 cd = at(d) - at(c);
+        const Vector3 cd = place(d) - place(c);
         const bool unfolded = ca.cross(cd).dot(normal) > 0 && cd.cross(cb).dot(normal) > 0;
         const bool bent = first.normalized().dot(second.normalized()) < 0.5;
         return unfolded && !bent && !joined(h, d);
@@ -78,19 +74,19 @@ private:
     bool joined(int h, int d) {
         const int start = Topology::previous(h);
         for (const bool clockwise : {false, true}) {
-            int at = start;
+            int here = start;
             do {
-                if (corner(Topology::next(at)) == d || corner(Topology::previous(at)) == d) {
+                if (corner(Topology::next(here)) == d || corner(Topology::previous(here)) == d) {
                     return true;
                 }
                 if (clockwise) {
-                    at = twin_of(at);
-                    if (at >= 0) at = Topology::next(at);
+                    here = twin_of(here);
+                    if (here >= 0) here = Topology::next(here);
                 } else {
-                    at = twin_of(Topology::previous(at));
+                    here = twin_of(Topology::previous(here));
                 }
-            } while (at >= 0 && at != start);
-            if (at == start) return false;
+            } while (here >= 0 && here != start);
+            if (here == start) return false;
         }
         return false;
     }
@@ -112,8 +108,8 @@ private:
         const int db = twin_of(Topology::previous(g));
         const int t = h / 3 * 3;
         const int s = g / 3 * 3;
-        mesh_.triangles[static_cast<std::size_t>(h / 3)] = {c, d, b};
-        mesh_.triangles[static_cast<std::size_t>(g / 3)] = {d, c, a};
+        mesh_.triangles[at(h / 3)] = {c, d, b};
+        mesh_.triangles[at(g / 3)] = {d, c, a};
         link(t, s);
         link(t + 1, db);
         link(t + 2, bc);
@@ -134,8 +130,8 @@ void relax(HalfMesh& mesh, const ImplicitBody& body, const Context& context) {
     for (const auto& triangle : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             const auto v = static_cast<std::size_t>(triangle[k]);
-            sum[v] += mesh.vertices[static_cast<std::size_t>(triangle[(k + 1) % 3])] +
-                      mesh.vertices[static_cast<std::size_t>(triangle[(k + 2) % 3])];
+            sum[v] +=
+                mesh.vertices[at(triangle[(k + 1) % 3])] + mesh.vertices[at(triangle[(k + 2) % 3])];
             count[v] += 2;
         }
     }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 #include "kinequad/synth/cell_cases.h"
 #include "kinequad/synth/half_mesh.h"
@@ -23,8 +24,7 @@ public:
         origin_ = Vector3(-0.5 * cell, body.low().y() - (2 - shift) * cell,
                           body.low().z() - (2 - 0.6 * shift) * cell);
         for (int a = 0; a < 3; ++a) {
-            const auto at = static_cast<std::size_t>(a);
-            blocks_[at] =
+            blocks_[at(a)] =
                 static_cast<int>(std::ceil((body.high()[a] - origin_[a]) / cell + 3) / block_size) +
                 1;
         }
@@ -49,13 +49,13 @@ public:
     /// Value at a corner; beyond active blocks only its sign counts.
     float value(const Cell& corner) const {
         const int block = block_of(corner);
-        const int state = state_[static_cast<std::size_t>(block)];
+        const int state = state_[at(block)];
         if (state < 0) return state == outside ? 1.0F : -1.0F;
         return values_[index(state, corner)];
     }
     /// Place of a corner, or of the cell above it, in an array over active blocks.
     std::size_t slot(const Cell& corner) const {
-        return index(state_[static_cast<std::size_t>(block_of(corner))], corner);
+        return index(state_[at(block_of(corner))], corner);
     }
 
 private:
@@ -172,12 +172,12 @@ public:
     /// Sets the vertices of the cells of a block: the mean of where the surface crosses the edges.
     void place_vertices(std::size_t block, HalfMesh& mesh) const {
         for_cells(block, [&](const Cell& cell, std::size_t slot) {
-            const CellCase& at = cell_case(mask_[slot]);
+            const CellCase& here = cell_case(mask_[slot]);
             std::array<Vector3, 4> sum;
             std::array<int, 4> crossings{};
             sum.fill(Vector3::Zero());
             for (int edge = 0; edge < 12; ++edge) {
-                const int piece = at.piece[static_cast<std::size_t>(edge)];
+                const int piece = here.piece[at(edge)];
                 if (piece < 0) continue;
                 const auto [a, b] = cell_edge_corners(edge);
                 const Cell from = corner_of(cell, a);
@@ -185,11 +185,10 @@ public:
                 const auto from_value = static_cast<double>(grid_.value(from));
                 const auto to_value = static_cast<double>(grid_.value(to));
                 const double t = from_value / (from_value - to_value);
-                sum[static_cast<std::size_t>(piece)] +=
-                    (1 - t) * grid_.position(from) + t * grid_.position(to);
-                ++crossings[static_cast<std::size_t>(piece)];
+                sum[at(piece)] += (1 - t) * grid_.position(from) + t * grid_.position(to);
+                ++crossings[at(piece)];
             }
-            for (int piece = 0; piece < at.piece_count; ++piece) {
+            for (int piece = 0; piece < here.piece_count; ++piece) {
                 const auto p = static_cast<std::size_t>(piece);
                 const std::size_t vertex = static_cast<std::size_t>(first_vertex_[slot]) + p;
                 mesh.vertices[vertex] = sum[p] / crossings[p];
@@ -208,7 +207,7 @@ public:
             const bool inside = grid_.value(corner) < 0;
             for (int axis = 0; axis < 3; ++axis) {
                 Cell far = corner;
-                ++far[static_cast<std::size_t>(axis)];
+                ++far[at(axis)];
                 if (at_end(far) || (grid_.value(far) < 0) == inside) continue;
                 constexpr std::array<std::array<int, 2>, 4> around{
                     {{1, 1}, {0, 1}, {0, 0}, {1, 0}}};
@@ -216,12 +215,11 @@ public:
                 for (std::size_t k = 0; k < 4; ++k) {
                     const auto [u, v] = around[k];
                     Cell cell = corner;
-                    cell[static_cast<std::size_t>((axis + 1) % 3)] -= u;
-                    cell[static_cast<std::size_t>((axis + 2) % 3)] -= v;
+                    cell[at((axis + 1) % 3)] -= u;
+                    cell[at((axis + 2) % 3)] -= v;
                     const std::size_t slot = grid_.slot(cell);
                     const int edge = 4 * axis + u + 2 * v;
-                    quad[k] = first_vertex_[slot] +
-                              cell_case(mask_[slot]).piece[static_cast<std::size_t>(edge)];
+                    quad[k] = first_vertex_[slot] + cell_case(mask_[slot]).piece[at(edge)];
                 }
                 if (!inside) std::swap(quad[1], quad[3]);
                 quads.push_back(quad);
@@ -287,9 +285,7 @@ HalfMesh mesh_half_body(const ImplicitBody& body, double cell, double shift,
     for (const auto& of_block : quads) {
         for (const auto& [a, b, c, d] : of_block) {
             const auto squared = [&](int i, int j) {
-                return (mesh.vertices[static_cast<std::size_t>(i)] -
-                        mesh.vertices[static_cast<std::size_t>(j)])
-                    .squaredNorm();
+                return (mesh.vertices[at(i)] - mesh.vertices[at(j)]).squaredNorm();
             };
             if (squared(a, c) <= squared(b, d)) {
                 mesh.triangles.push_back({a, b, c});

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinequad/core/index.h"
 #include "kinequad/synth/creature.h"
 
 namespace kinequad::synth_detail {
@@ -98,41 +99,40 @@ Pose walk_at(const std::vector<Bone>& bones, const QuadrupedBones& s, double pha
     const double angle = 2 * std::numbers::pi * phase;
     Pose pose;
     pose.rotation.assign(bones.size(), Eigen::Quaterniond::Identity());
-    const auto at = [&](int bone) -> Eigen::Quaterniond& {
-        return pose.rotation[static_cast<std::size_t>(bone)];
-    };
+    const auto rotation = [&](int bone) -> Eigen::Quaterniond& { return pose.rotation[at(bone)]; };
     const double sway = std::cos(angle);
     const double lag = std::sin(angle);
-    at(s.pelvis) = turn_y(-5 * sway) * turn_z(2.5 * lag);
-    at(s.spine) = turn_y(6 * sway) * turn_z(-2 * lag) * turn_x(2 * std::cos(2 * angle));
-    at(s.chest) = turn_y(5 * lag) * turn_z(-2 * sway) * turn_x(-2 * std::cos(2 * angle));
-    at(s.neck) = turn_y(-5 * lag) * turn_x(6 + 4 * std::cos(2 * angle + 0.6));
-    at(s.head) = turn_y(4 * sway - 4 * lag) * turn_x(-4 - 4 * std::cos(2 * angle + 0.4));
-    at(s.tail_root) = turn_y(14 * std::sin(angle + 0.4)) * turn_x(-14);
-    at(s.tail_middle) = turn_y(17 * std::sin(angle - 0.5)) * turn_x(8);
-    at(s.tail_tip) = turn_y(20 * std::sin(angle - 1.4)) * turn_x(16);
+    rotation(s.pelvis) = turn_y(-5 * sway) * turn_z(2.5 * lag);
+    rotation(s.spine) = turn_y(6 * sway) * turn_z(-2 * lag) * turn_x(2 * std::cos(2 * angle));
+    rotation(s.chest) = turn_y(5 * lag) * turn_z(-2 * sway) * turn_x(-2 * std::cos(2 * angle));
+    rotation(s.neck) = turn_y(-5 * lag) * turn_x(6 + 4 * std::cos(2 * angle + 0.6));
+    rotation(s.head) = turn_y(4 * sway - 4 * lag) * turn_x(-4 - 4 * std::cos(2 * angle + 0.4));
+    rotation(s.tail_root) = turn_y(14 * std::sin(angle + 0.4)) * turn_x(-14);
+    rotation(s.tail_middle) = turn_y(17 * std::sin(angle - 0.5)) * turn_x(8);
+    rotation(s.tail_tip) = turn_y(20 * std::sin(angle - 1.4)) * turn_x(16);
     pose.shift = Vector3(0.012 * lag, 0, 0);
 
     const auto pose_side = [&](double stride, auto bone, auto side) {
         // A walk in lateral sequence: the fore foot comes down a quarter of a stride after the hind
         // foot of its side. Keys are tenths of a stride from where a foot comes down, degrees.
         const double fore = stride - 0.25;
-        at(bone(s.thigh)) =
+        rotation(bone(s.thigh)) =
             side(turn_x(-cyclic_curve({20, 14, 7, 0, -8, -16, -22, -10, 10, 21}, stride)));
-        at(bone(s.shin)) = side(turn_x(cyclic_curve({-2, 4, 6, 5, 2, -2, 8, 28, 26, 7}, stride)));
-        at(bone(s.foot)) =
+        rotation(bone(s.shin)) =
+            side(turn_x(cyclic_curve({-2, 4, 6, 5, 2, -2, 8, 28, 26, 7}, stride)));
+        rotation(bone(s.foot)) =
             side(turn_x(-cyclic_curve({-2, 4, 8, 6, 2, -8, -4, 28, 34, 11}, stride)));
-        at(bone(s.upper_arm)) =
+        rotation(bone(s.upper_arm)) =
             side(turn_x(-cyclic_curve({21, 14, 7, 0, -7, -14, -20, -8, 10, 22}, fore)));
-        at(bone(s.forearm)) =
+        rotation(bone(s.forearm)) =
             side(turn_x(-cyclic_curve({0, 3, 3, 1, -2, -4, 12, 48, 40, 10}, fore)));
-        at(bone(s.hand)) =
+        rotation(bone(s.hand)) =
             side(turn_x(cyclic_curve({-8, -10, -8, -2, 4, 12, 34, 62, 30, 0}, fore)));
     };
     pose_side(
         phase, [](int bone) { return bone; }, [](const Eigen::Quaterniond& q) { return q; });
     pose_side(
-        phase + 0.5, [&](int bone) { return bones[static_cast<std::size_t>(bone)].mirror; },
+        phase + 0.5, [&](int bone) { return bones[at(bone)].mirror; },
         [](const Eigen::Quaterniond& q) { return mirrored(q); });
     return pose;
 }

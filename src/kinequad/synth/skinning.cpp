@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "kinequad/core/index.h"
+
 namespace kinequad::synth_detail {
 namespace {
 
@@ -22,11 +24,11 @@ double ground_height(const Creature& creature, const std::vector<Rigid>& motion)
     constexpr double softness = 0.01;
     double least = 1e9;
     for (const Contact& contact : creature.contacts) {
-        least = std::min(least, motion[static_cast<std::size_t>(contact.bone)](contact.point).y());
+        least = std::min(least, motion[at(contact.bone)](contact.point).y());
     }
     double sum = 0;
     for (const Contact& contact : creature.contacts) {
-        const double height = motion[static_cast<std::size_t>(contact.bone)](contact.point).y();
+        const double height = motion[at(contact.bone)](contact.point).y();
         sum += std::exp((least - height) / softness);
     }
     return least - softness * std::log(sum);
@@ -42,7 +44,7 @@ std::vector<DualQuaternion> bone_motions(const Creature& creature, const Pose& p
         if (bone.parent < 0) {
             motion.push_back({local.rotation, local.translation + pose.shift});
         } else {
-            const Rigid& parent = motion[static_cast<std::size_t>(bone.parent)];
+            const Rigid& parent = motion[at(bone.parent)];
             motion.push_back({parent.rotation * local.rotation, parent(local.translation)});
         }
     }
@@ -57,12 +59,12 @@ std::vector<DualQuaternion> bone_motions(const Creature& creature, const Pose& p
 
 Vector3 skin_point(const Vector3& point, const BoneWeights& weights,
                    const std::vector<DualQuaternion>& motions) {
-    const Eigen::Vector4d& first = motions[static_cast<std::size_t>(weights[0].bone)].real;
+    const Eigen::Vector4d& first = motions[at(weights[0].bone)].real;
     Eigen::Vector4d real = Eigen::Vector4d::Zero();
     Eigen::Vector4d dual = Eigen::Vector4d::Zero();
     for (const BoneWeight& entry : weights) {
         if (entry.weight == 0) continue;
-        const DualQuaternion& motion = motions[static_cast<std::size_t>(entry.bone)];
+        const DualQuaternion& motion = motions[at(entry.bone)];
         // The two signs of a quaternion are the same motion; the nearer one is blended.
         const double weight = motion.real.dot(first) < 0 ? -entry.weight : entry.weight;
         real += weight * motion.real;

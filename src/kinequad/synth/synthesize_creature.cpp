@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
 #include "kinequad/mesh/topology.h"
 #include "kinequad/synth/half_mesh.h"
@@ -80,26 +81,25 @@ WholeMesh mirror_half(const HalfMesh& half) {
     whole.mirror.resize(half.vertices.size());
     int next = n;
     for (int v = 0; v < n; ++v) {
-        const auto at = static_cast<std::size_t>(v);
-        if (half.in_plane[at] != 0) {
-            whole.mirror[at] = v;
+        if (half.in_plane[at(v)] != 0) {
+            whole.mirror[at(v)] = v;
         } else {
-            whole.mirror[at] = next++;
+            whole.mirror[at(v)] = next++;
             whole.mirror.push_back(v);
         }
     }
     whole.V.resize(next, 3);
     for (int v = 0; v < next; ++v) {
         const bool other_side = v >= n;
-        const int source = other_side ? whole.mirror[static_cast<std::size_t>(v)] : v;
-        whole.V.row(v) = half.vertices[static_cast<std::size_t>(source)].transpose();
+        const int source = other_side ? whole.mirror[at(v)] : v;
+        whole.V.row(v) = half.vertices[at(source)].transpose();
         if (other_side) whole.V(v, 0) = -whole.V(v, 0);
     }
     const auto m = static_cast<Eigen::Index>(half.triangles.size());
     whole.F.resize(2 * m, 3);
     for (Eigen::Index t = 0; t < m; ++t) {
-        const auto [a, b, c] = half.triangles[static_cast<std::size_t>(t)];
-        const auto image = [&](int v) { return whole.mirror[static_cast<std::size_t>(v)]; };
+        const auto [a, b, c] = half.triangles[at(t)];
+        const auto image = [&](int v) { return whole.mirror[at(v)]; };
         whole.F.row(t) << a, b, c;
         whole.F.row(m + t) << image(a), image(c), image(b);
     }
@@ -163,7 +163,7 @@ Landmarks find_landmarks(const Creature& creature, const HalfMesh& half,
     for (const Vector3& point : creature.pair_landmarks) {
         const int left = take(point, false);
         if (left >= 0) {
-            landmarks.pairs.push_back({left, mirror[static_cast<std::size_t>(left)]});
+            landmarks.pairs.push_back({left, mirror[at(left)]});
         }
     }
     for (const Vector3& point : creature.stationary_landmarks) {
@@ -226,9 +226,9 @@ private:
     /// Kept for the half x >= 0 alone; the other half follows the mirror bones.
     BoneWeights weights_of(std::size_t vertex) const {
         if (vertex < half_count_) return weights_[vertex];
-        BoneWeights weights = weights_[static_cast<std::size_t>(mesh_.mirror[vertex])];
+        BoneWeights weights = weights_[at(mesh_.mirror[vertex])];
         for (BoneWeight& entry : weights) {
-            entry.bone = creature_.bones[static_cast<std::size_t>(entry.bone)].mirror;
+            entry.bone = creature_.bones[at(entry.bone)].mirror;
         }
         return weights;
     }

@@ -145,7 +145,8 @@ std::vector<double> settle(SlidingQuads& sliding, double limit, int rounds,
                            const RelaxOptions& options, const Context& context) {
     constexpr int passes_between = 8;
     constexpr double held_share = 0.7;
-    std::vector<double> distances = sliding.close_gaps(options.gap_limit, context);
+    std::vector<double> distances =
+        sliding.close_gaps(options.gap_limit, options.drags_patches, context);
     for (int passes = 0; passes < rounds; ++passes) {
         if (passes % passes_between == 0) {
             for (std::size_t q = 0; q < distances.size(); ++q) {
@@ -154,7 +155,7 @@ std::vector<double> settle(SlidingQuads& sliding, double limit, int rounds,
         }
         sliding.relax_pass(SlidingQuads::Aim::right_angles, limit, context);
         if ((passes + 1) % passes_between == 0 || passes + 1 == rounds) {
-            distances = sliding.close_gaps(options.gap_limit, context);
+            distances = sliding.close_gaps(options.gap_limit, options.drags_patches, context);
         }
     }
     return distances;
@@ -179,7 +180,8 @@ void start_again(SlidingQuads& sliding, const SlidingQuads::State& early,
     sliding.restore(early, region);
     sliding.release();
     unfold(sliding, releasing_pass, context);
-    const Fit now = judge(sliding, sliding.close_gaps(options.gap_limit, context), 1);
+    const Fit now =
+        judge(sliding, sliding.close_gaps(options.gap_limit, options.drags_patches, context), 1);
     keep_better_regions(sliding, before, now, 1);
 }
 

@@ -29,6 +29,8 @@ struct RelaxOptions {
     /// At last quads and input are brought closer together where they are farther apart than most
     /// of this in any sampled frame, in edge lengths of the quads.
     double gap_limit = 0.45;
+    /// Whether patches of quads move as one there, where no vertex alone brings them closer.
+    bool drags_patches = false;
     /// Edges of lines of the surface, such as the line of symmetry or features: quad vertices on
     /// them slide along them.
     std::vector<int> line_edges = {};

@@ -261,8 +261,7 @@ double SlidingQuads::shortest_edge(int v) const {
 /// What no move takes the shortest edge at `v` below: vertices must not come together, as they
 /// could at the end of a line.
 double SlidingQuads::least_edge_at(int v) const {
-    constexpr double share = 0.1;
-    return std::min(shortest_edge(v), share * frames_[0].mean_edge);
+    return std::min(shortest_edge(v), least_edge_share * frames_[0].mean_edge);
 }
 
 /// The longest edge at `v` in a frame, by the mean length of the edges there.

@@ -24,6 +24,10 @@ inline constexpr double spacing_weight = 0.1;
 /// any frame, in mean lengths.
 inline constexpr double most_stretch = 3;
 
+/// Length below which no move makes the shortest edge at a vertex shorter in the first reference,
+/// in mean lengths.
+inline constexpr double least_edge_share = 0.1;
+
 /// Distances between quads and input below this are near, in mean lengths of the quads' edges.
 inline constexpr double near_share = 0.15;
 
@@ -115,9 +119,10 @@ public:
 
     /// Brings quads and input together where they are farther apart than most of `limit`, in mean
     /// lengths of the quads' edges, in any frame: vertices there search for places that are closer
-    /// in all frames and hardly cost angles. Sets free what is held. Returns how far apart
-    /// the two are at every quad (q) then, at most over all frames, in units of `limit`.
-    std::vector<double> close_gaps(double limit, const Context& context);
+    /// in all frames and hardly cost angles; where that is not enough and `drags_patches`, those
+    /// around them go along. Sets free what is held. Returns how far apart the two are at every
+    /// quad (q) then, at most over all frames, in units of `limit`.
+    std::vector<double> close_gaps(double limit, bool drags_patches, const Context& context);
 
     /// Mean length of the quads' edges in the first reference, in units of the input.
     double mean_edge_length() const { return mean_edge_length(frames_[0]); }
@@ -183,6 +188,7 @@ private:
     bool improve(int v, Aim aim, double distance_limit);
     bool search_around(int v, const Steps& steps, const std::function<double(double)>& cost);
     bool close_gaps_at(int v, Gaps& gaps);
+    bool drag(int v, Gaps& gaps);
     bool move_onto(int v, const SurfacePoint& goal);
     int nearest_in_all_frames(int x) const;
     int cover_extremities_in(const Reference& reference, double limit, const Context& context);

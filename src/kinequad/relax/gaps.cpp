@@ -1,0 +1,307 @@
+#include "kinequad/relax/gaps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+#include "kinequad/core/index.h"
+#include "kinequad/core/parallel.h"
+#include "kinequad/core/sort_unique.h"
+#include "kinequad/mesh/closest_point_on_triangle.h"
+
+namespace kinequad {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double square(double x) { return x * x; }
+double eighth_power(double squared) { return square(square(squared)); }
+
+double squared_distance_to_quad(const Vector3& point, const QuadCorners& p) {
+    const std::size_t k = end_of_cut(p);
+    return std::min(
+        closest_point_on_triangle(point, p[k], p[k + 1], p[k + 2]).squared_distance,
+        closest_point_on_triangle(point, p[k], p[k + 2], p[(k + 3) % 4]).squared_distance);
+}
+
+}  // namespace
+
+SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, double limit, const Context& context)
+    : sliding_(quads) {
+    choose_points();
+    choose_sides();
+    views_.resize(sliding_.frames_.size());
+    parallel_for(views_.size(), 1, context, [&](std::size_t f, std::size_t) {
+        const Frame& frame = sliding_.frames_[f];
+        views_[f].unit = limit * frame.mean_edge;
+        look_at_all(f, context);
+    });
+}
+
+std::vector<double> SlidingQuads::Gaps::at_quads() const {
+    std::vector<double> farthest(views_[0].of_quad.size(), 0);
+    for (const View& view : views_) {
+        for (std::size_t q = 0; q < farthest.size(); ++q) {
+            farthest[q] = std::max(farthest[q], view.of_quad[q] / view.unit);
+        }
+        for (std::size_t x = 0; x < points_.size(); ++x) {
+            double& of_nearest = farthest[at(view.nearest[x])];
+            of_nearest = std::max(of_nearest, view.of_point[x] / view.unit);
+        }
+    }
+    return farthest;
+}
+
+std::vector<int> SlidingQuads::Gaps::quads_beyond(double distance) const {
+    const std::vector<double> farthest = at_quads();
+    std::vector<std::pair<double, int>> far;
+    for (std::size_t q = 0; q < farthest.size(); ++q) {
+        if (farthest[q] > distance) far.emplace_back(-farthest[q], static_cast<int>(q));
+    }
+    std::sort(far.begin(), far.end());
+    std::vector<int> quads;
+    quads.reserve(far.size());
+    for (const auto& [negative, q] : far) quads.push_back(q);
+    return quads;
+}
+
+SlidingQuads::Gaps::Surroundings SlidingQuads::Gaps::surroundings(
+    const std::vector<int>& vertices) const {
+    Surroundings around;
+    for (const int v : vertices) {
+        for (const int c : sliding_.corners_of(v)) around.quads.push_back(c / 4);
+    }
+    sort_unique(around.quads);
+    for (const int q : around.quads) {
+        for (const int w : sliding_.vertices_around(q, 0)) {
+            for (const int c : sliding_.corners_of(w)) around.patch.push_back(c / 4);
+        }
+    }
+    sort_unique(around.patch);
+    std::stable_partition(around.patch.begin(), around.patch.end(), [&](int q) {
+        return std::binary_search(around.quads.begin(), around.quads.end(), q);
+    });
+    std::vector<std::pair<double, std::size_t>> order;
+    double misfit = 0;
+    for (std::size_t f = 0; f < views_.size(); ++f) {
+        const View& view = views_[f];
+        std::vector<int>& points = around.points.emplace_back();
+        double farthest = 0;
+        for (const int q : around.quads) {
+            farthest = std::max(farthest, view.of_quad[at(q)]);
+            for (const int x : view.points_of[at(q)]) {
+                points.push_back(x);
+                farthest = std::max(farthest, view.of_point[at(x)]);
+            }
+        }
+        // The farthest first: most places that are no better show it there.
+        std::sort(points.begin(), points.end(), [&](int x, int y) {
+            const double of_x = view.of_point[at(x)];
+            const double of_y = view.of_point[at(y)];
+            return of_x != of_y ? of_x > of_y : x < y;
+        });
+        order.emplace_back(-farthest / view.unit, f);
+        misfit += eighth_power(square(farthest / view.unit));
+    }
+    std::sort(order.begin(), order.end());
+    for (const auto& [negative, f] : order) around.frames.push_back(f);
+    around.cost = shape_cost(around) + misfit;
+    const View& worst = views_[around.frames.front()];
+    std::sort(around.quads.begin(), around.quads.end(), [&](int q, int r) {
+        const double of_q = worst.of_quad[at(q)];
+        const double of_r = worst.of_quad[at(r)];
+        return of_q != of_r ? of_q > of_r : q < r;
+    });
+    return around;
+}
+
+double SlidingQuads::Gaps::cost(const Surroundings& around, std::size_t frames,
+                                double enough) const {
+    const double shape = shape_cost(around);
+    if (shape >= enough) return shape;
+    return shape + misfit(around, std::min(frames, views_.size()), enough - shape);
+}
+
+/// Sum of the eighth powers of the largest distances in the first `frames` of the frames of
+/// `around`; does not add up beyond `enough`.
+double SlidingQuads::Gaps::misfit(const Surroundings& around, std::size_t frames,
+                                  double enough) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < frames && sum < enough; ++i) {
+        const std::size_t f = around.frames[i];
+        const double squared_unit = square(views_[f].unit);
+        const double left = enough - sum;
+        const double too_far =
+            left < infinity ? squared_unit * std::sqrt(std::sqrt(left)) : infinity;
+        sum += eighth_power(squared_distance(around, f, too_far) / squared_unit);
+    }
+    return sum;
+}
+
+/// What the shape of the quads that change counts beside their distances from the input.
+double SlidingQuads::Gaps::shape_cost(const Surroundings& around) const {
+    constexpr double weight = 3;
+    double sum = 0;
+    for (const Frame& frame : sliding_.frames_) {
+        for (std::size_t i = 0; i < around.quads.size(); ++i) {
+            const QuadCorners corners = sliding_.corners_in(frame, around.patch[i]);
+            sum += frame.weight * quad_cost(corners, relaxing_barrier);
+        }
+    }
+    return weight * sum / static_cast<double>(sliding_.frames_.size());
+}
+
+void SlidingQuads::Gaps::update(const Surroundings& around) {
+    for (std::size_t f = 0; f < views_.size(); ++f) {
+        View& view = views_[f];
+        for (const int q : around.quads) {
+            view.of_quad[at(q)] = std::sqrt(squared_distance_of(q, f));
+            view.points_of[at(q)].clear();
+        }
+        const double near_distance = near_share * sliding_.frames_[f].mean_edge;
+        for (const int x : around.points[f]) {
+            const auto [squared, q] = nearest_in(around.patch, x, f, square(near_distance));
+            view.nearest[at(x)] = q;
+            view.points_of[at(q)].push_back(x);
+            view.of_point[at(x)] = std::sqrt(squared);
+        }
+    }
+}
+
+/// All vertices, and points between the ends of edges that are long for the quads.
+void SlidingQuads::Gaps::choose_points() {
+    constexpr double spacing = 0.7;
+    constexpr double most_parts = 8;
+    const Topology& topology = sliding_.topology_;
+    for (int v = 0; v < topology.vertex_count; ++v) {
+        if (topology.vertex_half_edge[at(v)] >= 0) {
+            points_.push_back({v, v, 0});
+        }
+    }
+    for (int h = 0; h < 3 * topology.triangle_count; ++h) {
+        if (topology.twin[at(h)] > h) continue;
+        const int a = sliding_.F_(h / 3, h % 3);
+        const int b = sliding_.F_(h / 3, (h + 1) % 3);
+        double length = 0;
+        for (const Frame& frame : sliding_.frames_) {
+            const double here = (frame.input.row(a) - frame.input.row(b)).norm();
+            length = std::max(length, here / frame.mean_edge);
+        }
+        const int parts = static_cast<int>(std::min(most_parts, std::ceil(length / spacing)));
+        for (int i = 1; i < parts; ++i) {
+            points_.push_back({a, b, static_cast<double>(i) / parts});
+        }
+    }
+}
+
+/// Gives every side to the first quad that has it.
+void SlidingQuads::Gaps::choose_sides() {
+    std::vector<std::array<int, 3>> sides;
+    for (int c = 0; c < static_cast<int>(sliding_.quads_.Q.size()); ++c) {
+        const auto [a, b] = std::minmax({sliding_.neighbour(c, 0), sliding_.neighbour(c, 1)});
+        sides.push_back({a, b, c});
+    }
+    std::sort(sides.begin(), sides.end());
+    owns_side_.assign(sides.size(), 1);
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+        const bool is_known = sides[i][0] == sides[i - 1][0] && sides[i][1] == sides[i - 1][1];
+        if (is_known) owns_side_[at(sides[i][2])] = 0;
+    }
+}
+
+void SlidingQuads::Gaps::look_at_all(std::size_t f, const Context& context) {
+    const Frame& frame = sliding_.frames_[f];
+    View& view = views_[f];
+    const Quads& Q = sliding_.quads_.Q;
+    view.points_of.resize(at(static_cast<int>(Q.rows())));
+    for (int q = 0; q < static_cast<int>(Q.rows()); ++q) {
+        if (q % 4096 == 0) context.check_cancelled();
+        view.of_quad.push_back(std::sqrt(squared_distance_of(q, f)));
+    }
+    const ClosestPoints quads(frame.vertices, cut_quads(Q, frame.vertices));
+    int hint = -1;
+    for (std::size_t x = 0; x < points_.size(); ++x) {
+        if (x % 4096 == 0) context.check_cancelled();
+        const ClosestPoint closest = quads.find(points_[x].position(frame.input), hint);
+        hint = closest.point.triangle;
+        view.nearest.push_back(hint / 2);
+        view.points_of[at(hint / 2)].push_back(static_cast<int>(x));
+        view.of_point.push_back(std::sqrt(closest.squared_distance));
+    }
+}
+
+/// Squared distance of point `x` to the nearest of `quads`, or to one that is not farther than
+/// `enough`, and that quad.
+std::pair<double, int> SlidingQuads::Gaps::nearest_in(const std::vector<int>& quads, int x,
+                                                      std::size_t f, double enough) const {
+    const Frame& frame = sliding_.frames_[f];
+    const Vector3 point = points_[at(x)].position(frame.input);
+    std::pair<double, int> nearest = {infinity, -1};
+    for (const int q : quads) {
+        const double here = squared_distance_to_quad(point, sliding_.corners_in(frame, q));
+        if (here < nearest.first) nearest = {here, q};
+        if (nearest.first <= enough) break;
+    }
+    return nearest;
+}
+
+/// The largest around; or the first that is above `too_far`.
+double SlidingQuads::Gaps::squared_distance(const Surroundings& around, std::size_t f,
+                                            double too_far) const {
+    double farthest = 0;
+    for (const int q : around.quads) {
+        farthest = std::max(farthest, squared_distance_of(q, f));
+        if (farthest > too_far) return farthest;
+    }
+    for (const int x : around.points[f]) {
+        farthest = std::max(farthest, nearest_in(around.patch, x, f, farthest).first);
+        if (farthest > too_far) return farthest;
+    }
+    return farthest;
+}
+
+/// Largest squared distance of points of a quad to the input: on the sides that are its own, on
+/// the shorter diagonal and inside the two triangles; on more of them where one is not near.
+/// What is near counts as `near_share`.
+double SlidingQuads::Gaps::squared_distance_of(int quad, std::size_t f) const {
+    const Frame& frame = sliding_.frames_[f];
+    const QuadCorners p = sliding_.corners_in(frame, quad);
+    const std::size_t k = end_of_cut(p);
+    const double near_distance = near_share * frame.mean_edge;
+    double farthest = square(near_distance);
+    const auto ask = [&](const Vector3& point, int hint) {
+        const ClosestPoint found = frame.surface->find_unless_near(farthest, point, hint);
+        const bool is_beyond = found.squared_distance > farthest;
+        if (is_beyond) farthest = found.squared_distance;
+        return is_beyond;
+    };
+    const auto at_corner = [&](std::size_t corner) {
+        const int v = sliding_.quads_.Q(quad, static_cast<int>(corner));
+        return sliding_.quads_.vertex[at(v)].triangle;
+    };
+    const auto at_middle = [&](std::size_t side) { return sliding_.hints_[at(5 * quad) + side]; };
+    const auto ask_on_lines = [&](std::initializer_list<double> shares) {
+        bool is_any_far = false;
+        for (std::size_t i = 0; i < 5; ++i) {
+            if (i < 4 && owns_side_[at(4 * quad) + i] == 0) continue;
+            const std::size_t a = i < 4 ? i : k;
+            const std::size_t b = i < 4 ? (i + 1) % 4 : k + 2;
+            for (const double share : shares) {
+                const Vector3 point = p[a] + share * (p[b] - p[a]);
+                const int hint = share == 0.5 ? at_middle(i) : at_corner(share < 0.5 ? a : b);
+                if (ask(point, hint)) is_any_far = true;
+            }
+        }
+        return is_any_far;
+    };
+    const bool is_line_far = ask_on_lines({0.5, 0.25, 0.75});
+    const bool is_first_far = ask((p[k] + p[k + 1] + p[k + 2]) / 3, at_middle(4));
+    const bool is_second_far = ask((p[k] + p[k + 2] + p[(k + 3) % 4]) / 3, at_middle(4));
+    if (is_line_far || is_first_far || is_second_far) {
+        ask_on_lines({0.125, 0.375, 0.625, 0.875});
+    }
+    return farthest;
+}
+
+}  // namespace kinequad

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "kinequad/relax/sliding_quads.h"
+
+namespace kinequad {
+
+/// The distances between quads and input in all frames, kept up to date while vertices move. In
+/// every frame the unit is `limit` mean lengths of the quads' edges there.
+class SlidingQuads::Gaps {
+public:
+    Gaps(const SlidingQuads& quads, double limit, const Context& context);
+
+    /// The distance at every quad (q), at most over the frames, in units.
+    std::vector<double> at_quads() const;
+
+    /// The quads farther away than `distance` units in some frame, the farthest first.
+    std::vector<int> quads_beyond(double distance) const;
+
+    /// What changes as some vertices move, and what is near.
+    struct Surroundings {
+        std::vector<int> quads;                ///< that change, the farthest first
+        std::vector<int> patch;                ///< these, by number, then the ones around them
+        std::vector<std::vector<int>> points;  ///< f: of the input, nearest to those that change
+        std::vector<std::size_t> frames;       ///< the one with the largest distance first
+        double cost = 0;                       ///< see below, before anything moves
+    };
+    Surroundings surroundings(const std::vector<int>& vertices) const;
+
+    /// What is to become less: the sum of the eighth powers of the largest distances in the first
+    /// `frames` of the frames of `around`, and what the shape of its quads costs in all of them.
+    /// Does not add up beyond `enough`.
+    double cost(const Surroundings& around, std::size_t frames, double enough) const;
+
+    /// Looks again at what has changed.
+    void update(const Surroundings& around);
+
+private:
+    /// A point of the input that is looked at, on the edge from vertex `a` to vertex `b`.
+    struct EdgePoint {
+        int a;
+        int b;
+        double share;  ///< 0 at `a`, 1 at `b`
+
+        Vector3 position(const Positions& X) const {
+            return ((1 - share) * X.row(a) + share * X.row(b)).transpose();
+        }
+    };
+
+    /// Distances in one frame, in units of the input.
+    struct View {
+        double unit = 1;
+        std::vector<double> of_quad;              ///< q: from the quad to the input
+        std::vector<double> of_point;             ///< x: from the point to the quads
+        std::vector<int> nearest;                 ///< x: the quad it is nearest to
+        std::vector<std::vector<int>> points_of;  ///< q: the points nearest to it
+    };
+
+    double misfit(const Surroundings& around, std::size_t frames, double enough) const;
+    double shape_cost(const Surroundings& around) const;
+    void choose_points();
+    void choose_sides();
+    void look_at_all(std::size_t f, const Context& context);
+    std::pair<double, int> nearest_in(const std::vector<int>& quads, int x, std::size_t f,
+                                      double enough) const;
+    double squared_distance(const Surroundings& around, std::size_t f, double too_far) const;
+    double squared_distance_of(int quad, std::size_t f) const;
+
+    const SlidingQuads& sliding_;
+    std::vector<EdgePoint> points_;  ///< of the input
+    std::vector<char> owns_side_;    ///< corner c: whether the side that begins there is looked at
+    std::vector<View> views_;        ///< f
+};
+
+}  // namespace kinequad

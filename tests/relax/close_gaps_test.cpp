@@ -1,0 +1,66 @@
+// Quads and input are brought together in all frames.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "kinequad/relax/sliding_quads.h"
+#include "relax/grid.h"
+
+namespace kinequad {
+namespace {
+
+using namespace test;
+
+double largest(const std::vector<double>& values) {
+    return *std::max_element(values.begin(), values.end());
+}
+
+TEST(CloseGaps, CoversASpikeThatOnlyAnotherFrameShows) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    Positions bent = grid.mesh.V;
+    bent(tip, 2) = 0;
+    SlidingQuads sliding = grid.sliding({{bent, 1}, {grid.mesh.V, 1}});
+    const std::vector<double> left = sliding.close_gaps(0.45, false, {});
+    grid.expect_kept(sliding.quads());
+    EXPECT_GT(grid.least_jacobian(sliding.quads(), bent), 0.1);
+    Grid after = grid;
+    after.quads = sliding.quads();
+    const double farthest = after.farthest();
+    EXPECT_LT(farthest, 0.45 / 6);
+    // What it says is left, in units of the limit, is the distance in that frame.
+    const double unit = 0.45 * grid.sliding({{grid.mesh.V, 1}}).mean_edge_length();
+    EXPECT_NEAR(unit * largest(left), farthest, 0.05 * farthest);
+}
+
+TEST(CloseGaps, LeavesQuadsAloneThatAreNear) {
+    const Grid grid(landscape(14, hill), 7, 0.3);
+    SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}, {sheared(grid.mesh.V, 0.5), 1}});
+    sliding.close_gaps(0.45, false, {});
+    EXPECT_TRUE(sliding.regions_moved_since({grid.quads.vertex, {}}).empty());
+}
+
+/// Cones of many heights between the vertices of the grid.
+TEST(CloseGaps, DraggedPatchesComeCloserThanVerticesAlone) {
+    int closer = 0;
+    for (const double height : {0.12, 0.18, 0.24, 0.3, 0.36}) {
+        const auto cone = [&](double x, double y) {
+            return height * std::max(0.0, 1 - std::hypot(x - 0.58, y - 0.46) / 0.16);
+        };
+        const Grid grid(landscape(24, cone), 6, 0);
+        SlidingQuads alone = grid.sliding({{grid.mesh.V, 1}});
+        SlidingQuads dragged = grid.sliding({{grid.mesh.V, 1}});
+        const double left_alone = largest(alone.close_gaps(0.3, false, {}));
+        const double left = largest(dragged.close_gaps(0.3, true, {}));
+        grid.expect_kept(dragged.quads());
+        EXPECT_GT(grid.least_jacobian(dragged.quads(), grid.mesh.V), 0) << height;
+        EXPECT_LE(left, left_alone + 1e-12) << height;
+        if (left < 0.9 * left_alone) ++closer;
+    }
+    EXPECT_GE(closer, 3);
+}
+
+}  // namespace
+}  // namespace kinequad

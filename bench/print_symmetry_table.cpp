@@ -36,9 +36,6 @@ using kinequad::Quads;
 using kinequad::Triangles;
 using kinequad::Vector3;
 
-/// As scripts/symmetry asks for.
-constexpr int wanted_vertices = 5200;
-
 /// A run of a sequence: its folder, and how the table calls it.
 struct Mode {
     const char* folder;
@@ -207,7 +204,7 @@ std::optional<FieldSymmetry> measure_free_field(const std::string& sequence,
     const auto landmarks = kinequad::read_landmarks(data / "landmarks" / (sequence + ".json"));
     kinequad::Options options;
     options.symmetry = kinequad::SymmetryMode::none;
-    options.vertices = wanted_vertices;
+    options.vertices = record_of(sequence, "none").at("options").at("vertices").get<int>();
     options.relax_rounds = 0;
     const kinequad::Context context;
     const kinequad::Result result = kinequad::quadrangulate(*frames, landmarks, options, context);

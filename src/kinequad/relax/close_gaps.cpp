@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"

@@ -1,6 +1,7 @@
 #include "kinequad/relax/gaps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -175,9 +176,7 @@ void SlidingQuads::Gaps::choose_points() {
     constexpr double most_parts = 8;
     const Topology& topology = sliding_.topology_;
     for (int v = 0; v < topology.vertex_count; ++v) {
-        if (topology.vertex_half_edge[at(v)] >= 0) {
-            points_.push_back({v, v, 0});
-        }
+        if (topology.vertex_half_edge[at(v)] >= 0) points_.push_back({v, v, 0});
     }
     for (int h = 0; h < 3 * topology.triangle_count; ++h) {
         if (topology.twin[at(h)] > h) continue;

@@ -7,11 +7,15 @@
 #include <cstddef>
 #include <exception>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/parallel.h"
+#include "kinequad/measure/measure_sequence.h"
 #include "kinequad/measure/quad_shape.h"
 #include "kinequad/transfer/transfer.h"
 
@@ -35,97 +39,233 @@ double mean_angle_deviation(const QuadMesh& quads, const std::vector<DomainView>
     return sum / frames;
 }
 
-/// What one recipe made of a `Result`, and how good it is.
-struct Attempt {
-    Options options;
-    Domain domain;
-    CrossField field;
-    std::optional<FieldSymmetry> field_symmetry;
-    GridMap map;
-    std::vector<std::string> notes;
-    QuadMesh quads_on_input;
-    QuadMesh quads;  ///< on the domain
+/// A recipe, and how good it is before relaxation.
+struct Candidate {
+    SolvedRecipe recipe;
     bool is_off_count = false;
     double angle = 0;  ///< mean deviation, in degrees
     std::ptrdiff_t singular = 0;
 
-    bool operator<(const Attempt& other) const {
-        return std::tuple(is_off_count, cost()) < std::tuple(other.is_off_count, other.cost());
-    }
-
-private:
     double cost() const {
         constexpr double share_of_singularity = 0.002;
         return angle * (1 + share_of_singularity * static_cast<double>(singular));
     }
+    bool operator<(const Candidate& other) const {
+        return std::tuple(is_off_count, cost()) < std::tuple(other.is_off_count, other.cost());
+    }
 };
 
 /// Takes what the last recipe made out of `result`.
-Attempt take_attempt(Result& result, QuadMesh quads, const std::vector<DomainView>& views) {
+Candidate take_candidate(Result& result, QuadMesh quads, const std::vector<DomainView>& views) {
     constexpr double allowed = 0.05;
-    Attempt attempt{result.options,          std::move(result.domain), std::move(result.field),
-                    result.field_symmetry,   std::move(result.map),    std::move(result.notes),
-                    std::move(result.quads), std::move(quads)};
-    attempt.is_off_count = !attempt.notes.empty() ||
-                           std::abs(attempt.map.quads / attempt.map.wanted_quads - 1) > allowed;
-    attempt.angle = mean_angle_deviation(attempt.quads, views);
-    attempt.singular = (attempt.field.index.array() != 0).count();
-    if (attempt.domain.is_half()) attempt.singular *= 2;
-    return attempt;
+    Candidate candidate;
+    candidate.recipe = {result.options,          std::move(result.domain), std::move(result.field),
+                        result.field_symmetry,   std::move(result.map),    std::move(result.notes),
+                        std::move(result.quads), std::move(quads)};
+    const SolvedRecipe& recipe = candidate.recipe;
+    candidate.is_off_count =
+        !recipe.notes.empty() || std::abs(recipe.map.quads / recipe.map.wanted_quads - 1) > allowed;
+    candidate.angle = mean_angle_deviation(recipe.quads, views);
+    candidate.singular = (recipe.field.index.array() != 0).count();
+    if (recipe.domain.is_half()) candidate.singular *= 2;
+    return candidate;
 }
 
-/// Puts it back; returns its quads.
-QuadMesh put_attempt(Attempt attempt, Result& result) {
-    result.options = attempt.options;
-    result.domain = std::move(attempt.domain);
-    result.field = std::move(attempt.field);
-    result.field_symmetry = attempt.field_symmetry;
-    result.map = std::move(attempt.map);
-    result.notes = std::move(attempt.notes);
-    result.quads = std::move(attempt.quads_on_input);
-    return std::move(attempt.quads);
+/// Puts it back.
+void put_recipe(SolvedRecipe recipe, Result& result) {
+    result.options = recipe.options;
+    result.domain = std::move(recipe.domain);
+    result.field = std::move(recipe.field);
+    result.field_symmetry = recipe.field_symmetry;
+    result.map = std::move(recipe.map);
+    result.notes = std::move(recipe.notes);
+    result.quads = std::move(recipe.quads_on_input);
 }
 
-}  // namespace
+std::string name_of(const Options& recipe) {
+    return fmt::format(
+        "alpha {}{}", *recipe.alpha,
+        recipe.symmetrisation == Symmetrisation::orbits ? " and orbits averaged" : "");
+}
 
-QuadMesh solve_best_recipe(const std::vector<DomainView>& views, Result& result,
-                           const std::function<QuadMesh()>& solve, const Context& context,
-                           const StageEnd& finish_stage) {
-    const std::vector<Options> recipes = list_recipes(result.options);
-    if (recipes.size() == 1) {
-        result.options = recipes.front();
-        return solve();
+/// Whether another recipe may take the place of one that failed with `failure`.
+bool may_be_replaced(const std::exception_ptr& failure) {
+    try {
+        std::rethrow_exception(failure);
+    } catch (const Error& error) {
+        return may_be_overcome(error);
+    } catch (...) {
+        return false;
     }
+}
+
+/// Candidates that are finished at the same time.
+constexpr std::size_t batch = 2;
+
+/// Leaves the most promising of `candidates` alone, the best first: those that may still turn out
+/// best once they are relaxed.
+void keep_promising(std::vector<Candidate>& candidates) {
+    constexpr std::size_t most_kept = 2 * batch;
+    constexpr double most_behind = 0.08;
+    std::stable_sort(candidates.begin(), candidates.end());
+    const Candidate& best = candidates.front();
+    const auto end = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+        return c.is_off_count != best.is_off_count || c.cost() > (1 + most_behind) * best.cost();
+    });
+    const auto kept = std::min<std::ptrdiff_t>(end - candidates.begin(), most_kept);
+    candidates.erase(candidates.begin() + kept, candidates.end());
+}
+
+/// The most promising of `recipes`, solved one after the other, the best first. Those that fail are
+/// left out, unless all do.
+std::vector<Candidate> solve_recipes(const std::vector<Options>& recipes,
+                                     const std::vector<DomainView>& views, Result& result,
+                                     const std::function<QuadMesh()>& solve,
+                                     const Context& context) {
     const Domain domain = result.domain;
-    std::optional<Attempt> best;
-    bool is_best_last = false;
+    std::vector<Candidate> candidates;
     std::exception_ptr failure;
     for (const Options& recipe : recipes) {
         result.options = recipe;
         result.domain = domain;
         result.notes.clear();
-        is_best_last = false;
-        const std::string name = fmt::format(
-            "alpha {}{}", *recipe.alpha,
-            recipe.symmetrisation == Symmetrisation::orbits ? " and orbits averaged" : "");
         try {
-            Attempt attempt = take_attempt(result, solve(), views);
-            context.write_log(LogLevel::info,
-                              fmt::format("recipe: {} singularities and angles {:.2f} degrees off "
-                                          "before relaxation, with {}",
-                                          attempt.singular, attempt.angle, name));
-            is_best_last = !best || attempt < *best;
-            if (is_best_last) best = std::move(attempt);
+            candidates.push_back(take_candidate(result, solve(), views));
+            context.write_log(
+                LogLevel::info,
+                fmt::format("recipe: {} singularities and angles {:.2f} degrees off "
+                            "before relaxation, with {}",
+                            candidates.back().singular, candidates.back().angle, name_of(recipe)));
+            keep_promising(candidates);
         } catch (const Error& error) {
             if (!may_be_overcome(error)) throw;
             failure = std::current_exception();
-            context.write_log(LogLevel::info,
-                              fmt::format("recipe: none with {}: {}", name, error.what()));
+            context.write_log(LogLevel::info, fmt::format("recipe: none with {}: {}",
+                                                          name_of(recipe), error.what()));
+        }
+    }
+    if (candidates.empty()) std::rethrow_exception(failure);
+    return candidates;
+}
+
+/// Relaxed quads of a recipe, or why there are none.
+struct Finished {
+    QuadMesh quads;
+    std::exception_ptr failure;
+    std::vector<std::pair<LogLevel, std::string>> log;
+};
+
+/// Finishes `candidates` at the same time. Log lines are kept until all are done; progress is that
+/// of the first.
+std::vector<Finished> finish_together(std::span<const Candidate> candidates,
+                                      const RecipeSteps& steps, const Context& context) {
+    std::vector<Finished> finished(candidates.size());
+    parallel_for(candidates.size(), 1, context, [&](std::size_t i, std::size_t) {
+        Context own = context;
+        if (i > 0) own.progress = nullptr;
+        if (context.log && candidates.size() > 1) {
+            own.log = [&lines = finished[i].log](LogLevel level, std::string_view line) {
+                lines.emplace_back(level, line);
+            };
+        }
+        try {
+            finished[i].quads = steps.finish(candidates[i].recipe, own);
+        } catch (...) {
+            finished[i].failure = std::current_exception();
+        }
+    });
+    for (const Finished& made : finished) {
+        for (const auto& [level, line] : made.log) context.write_log(level, line);
+    }
+    return finished;
+}
+
+/// How good relaxed quads are; less is better.
+struct Grade {
+    int folded = 0;     ///< quads folded in the reference
+    double cost = 0;    ///< angles, and a penalty where they are far from the input
+    double excess = 0;  ///< mean distance from the input beyond what is usual, in edge lengths
+
+    bool operator<(const Grade& other) const {
+        return std::tuple(folded, cost) < std::tuple(other.folded, other.cost);
+    }
+};
+
+/// Grades `quads`, of edges as long as `edge_length`, in the pose `reference` (n x 3) and some of
+/// `frames`, evenly chosen.
+Grade grade_of(const QuadMesh& quads, const FrameSource& frames, const Positions& reference,
+               double edge_length, const std::string& name, const Context& context) {
+    constexpr int most_frames = 24;
+    // Quads come as close as this, in edge lengths, unless something is in the way.
+    constexpr double usual_distance = 0.6;
+    MeasureOptions options;
+    options.frame_step = (frames.frame_count() + most_frames - 1) / most_frames;
+    Context quiet = context;
+    quiet.progress = nullptr;
+    const std::vector<FrameMetrics> measured =
+        measure_sequence(frames, follow_surface(quads, frames.triangles()), {}, options, quiet)
+            .frames;
+    const double edge_percent = 100 * edge_length / bounding_box_diagonal(reference);
+    const double share = 1 / static_cast<double>(measured.size());
+    double angle = 0;
+    double distance = 0;
+    for (const FrameMetrics& frame : measured) {
+        angle += share * frame.shape.angle_deviation_mean;
+        distance += share * frame.distance.hausdorff_percent();
+    }
+    Grade grade;
+    grade.excess = std::max(0.0, distance / edge_percent - usual_distance);
+    grade.folded =
+        measure_shape(quad_positions(quads, reference, frames.triangles()), quads.Q).folded_quads;
+    grade.cost = angle * (1 + grade.excess);
+    context.write_log(LogLevel::info,
+                      fmt::format("recipe: angles {:.2f} degrees off, {:.3f} % away and {} folded "
+                                  "after relaxation, with {}",
+                                  angle, distance, grade.folded, name));
+    return grade;
+}
+
+}  // namespace
+
+QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& reference,
+                            const std::vector<DomainView>& views, Result& result,
+                            const RecipeSteps& steps, const Context& context,
+                            const StageEnd& finish_stage) {
+    // Beyond this, in edge lengths, the next recipes are worth their time.
+    constexpr double most_excess = 0.05;
+    const std::vector<Options> recipes = list_recipes(result.options);
+    std::vector<Candidate> candidates = solve_recipes(recipes, views, result, steps.solve, context);
+    std::optional<std::size_t> best;
+    Grade least;
+    QuadMesh quads;
+    std::exception_ptr failure;
+    const auto is_good = [&] { return best && least.folded == 0 && least.excess <= most_excess; };
+    for (std::size_t i = 0; i < candidates.size() && !is_good();) {
+        const std::size_t count = std::min(batch, candidates.size() - i);
+        for (Finished& made :
+             finish_together(std::span(candidates).subspan(i, count), steps, context)) {
+            const std::size_t candidate = i++;
+            if (made.failure) {
+                if (!may_be_replaced(made.failure)) std::rethrow_exception(made.failure);
+                if (!failure) failure = made.failure;
+                continue;
+            }
+            const Grade grade =
+                candidates.size() == 1
+                    ? Grade()
+                    : grade_of(made.quads, frames, reference, result.edge_length,
+                               name_of(candidates[candidate].recipe.options), context);
+            if (best && !(grade < least)) continue;
+            best = candidate;
+            least = grade;
+            quads = std::move(made.quads);
         }
     }
     if (!best) std::rethrow_exception(failure);
-    QuadMesh quads = put_attempt(*std::move(best), result);
-    if (!is_best_last) {
+    put_recipe(std::move(candidates[*best].recipe), result);
+    const bool is_last = result.options.alpha == recipes.back().alpha &&
+                         result.options.symmetrisation == recipes.back().symmetrisation;
+    if (!is_last) {
         // Whoever watches the stages sees those that count last.
         for (const char* stage : {"field", "map", "extraction"}) finish_stage(stage);
     }

@@ -1,20 +1,47 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "kinequad/pipeline/solve_quads.h"
 
 namespace kinequad {
 
-/// Solves the recipes of `result.options` one after the other, each with `solve`, which fills in
-/// field and map and returns the quads, in the triangles of the `views`; keeps in `result` the one
-/// whose quads come out with the best angles over some frames, a singularity weighing as much as
-/// 0.2 % of them. Those that miss the wanted number of vertices stand behind the others, and those
-/// that fail are left out, unless all do. Throws what
-/// `solve` throws. docs/pipeline.md
-QuadMesh solve_best_recipe(const std::vector<DomainView>& views, Result& result,
-                           const std::function<QuadMesh()>& solve, const Context& context,
-                           const StageEnd& finish_stage);
+/// What one recipe made of a run, up to the quads before relaxation.
+struct SolvedRecipe {
+    Options options;
+    Domain domain;
+    CrossField field;
+    std::optional<FieldSymmetry> field_symmetry;
+    GridMap map;
+    std::vector<std::string> notes;
+    QuadMesh quads_on_input;
+    QuadMesh quads;  ///< vertices are points of the domain's triangles
+};
+
+/// How a recipe is followed.
+struct RecipeSteps {
+    /// Solves the recipe `result.options`: fills in field and map, returns the quads, in the
+    /// triangles of the domain.
+    std::function<QuadMesh()> solve;
+    /// Relaxes what has been solved; vertices become points of the surface of the run. Called from
+    /// several threads at once.
+    std::function<QuadMesh(const SolvedRecipe&, const Context&)> finish;
+};
+
+/// Solves the recipes of `result.options` one after the other and finishes the two most promising
+/// ones: those whose quads have the best angles over some frames of the `views`, a singularity
+/// weighing as much as 0.2 % of them. Keeps in `result` the one that is best once it is relaxed:
+/// fewest folded quads in the pose `reference` (n x 3) of `frames`, the surface of the run, then
+/// angles, which count for more where quads are farther than 0.6 edge lengths from the input.
+/// Where they are much farther, up to two more are finished. Recipes that miss the wanted number of
+/// vertices stand behind the others, and those that fail are left out, unless all do. Returns the
+/// finished quads. Throws what the `steps` throw. docs/pipeline.md
+QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& reference,
+                            const std::vector<DomainView>& views, Result& result,
+                            const RecipeSteps& steps, const Context& context,
+                            const StageEnd& finish_stage);
 
 }  // namespace kinequad

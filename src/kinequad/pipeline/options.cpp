@@ -70,7 +70,8 @@ std::vector<Options> list_recipes(const Options& options) {
         std::vector<double> alphas = {default_alpha(options.field)};
         // What serves both sides at once is a matter of how differently they move.
         if (!is_paper && options.symmetry != SymmetryMode::none) {
-            if (is_whole) alphas = is_averaged ? std::vector{0.4, 0.5} : std::vector{0.05, 0.1};
+            if (is_whole)
+                alphas = is_averaged ? std::vector{0.4, 0.5} : std::vector{0.05, 0.1, 0.35};
             if (is_half) {
                 alphas = is_averaged ? std::vector{0.1, 0.35} : std::vector{0.02, 0.35, 0.5};
             }

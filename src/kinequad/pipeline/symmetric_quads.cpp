@@ -176,24 +176,25 @@ void require_on_curve(const QuadMesh& quads, const LevelSplit& split) {
     }
 }
 
-/// The quads of both sides, from those of the half, relaxed unless the sides `are_tied`, as where
-/// they are alike: each finds its own place on the surface.
-QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const QuadMesh& half,
-                      bool are_tied, const Context& context) {
+/// The quads of both sides, from those of the `half` solved, relaxed unless the sides `are_tied`,
+/// as where they are alike: each finds its own place on the surface.
+QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result,
+                      const SolvedRecipe& solved, const QuadMesh& half, bool are_tied,
+                      const Context& context) {
     const FrameSource& frames = surface.frames;
     const Topology& topology = surface.topology;
     const IntrinsicMetric& metric = surface.metric;
     const Positions& reference = surface.reference;
-    const SymmetricHalf& side = result.domain.surface;
+    const SymmetricHalf& side = solved.domain.surface;
     const std::vector<SurfacePoint> mirrored =
         mirror_points(side, topology, metric, frames.triangles(),
-                      matching_shapes(frames, reference, reference_frame_of(result.options)),
+                      matching_shapes(frames, reference, reference_frame_of(solved.options)),
                       half.vertex, context);
     QuadMesh on_whole{half.Q, {}, {}};
     for (const SurfacePoint& point : half.vertex) {
         on_whole.vertex.push_back(point_of_input(side.mesh, point));
     }
-    const std::vector<char> is_on_curve = curve_vertices(half, result.domain);
+    const std::vector<char> is_on_curve = curve_vertices(half, solved.domain);
     QuadMesh whole = join_mirrored_quads(on_whole, mirrored, is_on_curve);
     if (!are_tied) {
         const LevelSplit split = insert_stationary_curve(topology, metric, result.symmetry->map);
@@ -202,7 +203,7 @@ QuadMesh mirror_quads(const SolvedSurface& surface, const Result& result, const 
         for (SurfacePoint& point : whole.vertex) point = search.find(point);
         require_on_curve(whole, split);
         whole.vertex = relax_on_domain(cut.domain(), {cut.view()}, cut.domain().feature_edges,
-                                       whole, result.options, context)
+                                       whole, solved.options, context)
                            .vertex;
         for (SurfacePoint& point : whole.vertex) point = point_of_input(split.mesh, point);
     }
@@ -260,11 +261,14 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
         finish_stage("field");
         return map_and_extract(views, result, context, finish_stage);
     };
-    const QuadMesh solved = solve_best_recipe(views, result, solve, context, finish_stage);
-    QuadMesh quads = relax_on_domain(result.domain, views, result.map.feature_edges, solved,
-                                     result.options, context);
-    for (SurfacePoint& point : quads.vertex) point = point_of_input(split.mesh, point);
-    return quads;
+    const auto finish = [&](const SolvedRecipe& solved, const Context& own) {
+        QuadMesh quads = relax_on_domain(solved.domain, views, solved.map.feature_edges,
+                                         solved.quads, solved.options, own);
+        for (SurfacePoint& point : quads.vertex) point = point_of_input(split.mesh, point);
+        return quads;
+    };
+    return finish_best_recipe(frames, reference, views, result, {solve, finish}, context,
+                              finish_stage);
 }
 
 QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const Context& context,
@@ -306,14 +310,17 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
         finish_stage("field");
         return map_and_extract(views, result, context, finish_stage);
     };
-    const QuadMesh solved = solve_best_recipe(views, result, solve, context, finish_stage);
     const bool are_tied =
         are_alike(views[0], views[1], half_topology, reference_frame_of(result.options));
-    const QuadMesh half_quads =
-        are_tied ? relax_on_domain(result.domain, views, result.map.feature_edges, solved,
-                                   result.options, context)
-                 : solved;
-    QuadMesh quads = mirror_quads(surface, result, half_quads, are_tied, context);
+    const auto finish = [&](const SolvedRecipe& solved, const Context& own) {
+        const QuadMesh half_quads =
+            are_tied ? relax_on_domain(solved.domain, views, solved.map.feature_edges, solved.quads,
+                                       solved.options, own)
+                     : solved.quads;
+        return mirror_quads(surface, result, solved, half_quads, are_tied, own);
+    };
+    QuadMesh quads = finish_best_recipe(frames, reference, views, result, {solve, finish}, context,
+                                        finish_stage);
     result.mirror = judge_mirror(surface, result.symmetry->map, quads);
     return quads;
 }

@@ -128,7 +128,7 @@ TEST_F(BestRecipe, IsTheOneWithTheBestAngles) {
     EXPECT_TRUE(is_kept(1));
     EXPECT_EQ(quads.vertex, slanted(0).vertex);
     // Whoever watches is shown its stages again.
-    EXPECT_EQ(stages_, (std::vector<std::string>{"field", "map", "extraction"}));
+    EXPECT_EQ(stages_, (std::vector<std::string>{"relaxation", "field", "map", "extraction"}));
     outcomes.back().slant = 0.05;
     choose(outcomes);
     EXPECT_TRUE(stages_.empty());

@@ -182,9 +182,9 @@ std::vector<Finished> finish_together(std::span<const Candidate> candidates,
 
 /// How good relaxed quads are; less is better.
 struct Grade {
-    int folded = 0;     ///< quads folded in the reference
-    double cost = 0;    ///< angles, and a penalty where they are far from the input
-    double excess = 0;  ///< mean distance from the input beyond what is usual, in edge lengths
+    int folded = 0;       ///< quads folded in the reference
+    double cost = 0;      ///< by angles and distance from the input
+    double distance = 0;  ///< from the input, mean over the frames, in edge lengths
 
     bool operator<(const Grade& other) const {
         return std::tuple(folded, cost) < std::tuple(other.folded, other.cost);
@@ -196,8 +196,8 @@ struct Grade {
 Grade grade_of(const QuadMesh& quads, const FrameSource& frames, const Positions& reference,
                double edge_length, const std::string& name, const Context& context) {
     constexpr int most_frames = 24;
-    // Quads come as close as this, in edge lengths, unless something is in the way.
-    constexpr double usual_distance = 0.6;
+    constexpr double weight_of_distance = 0.1;
+    constexpr double least_distance = 0.05;  // closer ones are all alike
     MeasureOptions options;
     options.frame_step = (frames.frame_count() + most_frames - 1) / most_frames;
     Context quiet = context;
@@ -214,10 +214,10 @@ Grade grade_of(const QuadMesh& quads, const FrameSource& frames, const Positions
         distance += share * frame.distance.hausdorff_percent();
     }
     Grade grade;
-    grade.excess = std::max(0.0, distance / edge_percent - usual_distance);
+    grade.distance = distance / edge_percent;
     grade.folded =
         measure_shape(quad_positions(quads, reference, frames.triangles()), quads.Q).folded_quads;
-    grade.cost = angle * (1 + grade.excess);
+    grade.cost = angle * std::pow(std::max(grade.distance, least_distance), weight_of_distance);
     context.write_log(LogLevel::info,
                       fmt::format("recipe: angles {:.2f} degrees off, {:.3f} % away and {} folded "
                                   "after relaxation, with {}",
@@ -231,15 +231,18 @@ QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& referenc
                             const std::vector<DomainView>& views, Result& result,
                             const RecipeSteps& steps, const Context& context,
                             const StageEnd& finish_stage) {
-    // Beyond this, in edge lengths, the next recipes are worth their time.
-    constexpr double most_excess = 0.05;
+    // Quads come as close as this, in edge lengths, unless something is in the way; where they do
+    // not, the next recipes are worth their time.
+    constexpr double usual_distance = 0.65;
     const std::vector<Options> recipes = list_recipes(result.options);
     std::vector<Candidate> candidates = solve_recipes(recipes, views, result, steps.solve, context);
     std::optional<std::size_t> best;
     Grade least;
     QuadMesh quads;
     std::exception_ptr failure;
-    const auto is_good = [&] { return best && least.folded == 0 && least.excess <= most_excess; };
+    const auto is_good = [&] {
+        return best && least.folded == 0 && least.distance <= usual_distance;
+    };
     for (std::size_t i = 0; i < candidates.size() && !is_good();) {
         const std::size_t count = std::min(batch, candidates.size() - i);
         for (Finished& made :
@@ -266,8 +269,8 @@ QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& referenc
     const bool is_last = result.options.alpha == recipes.back().alpha &&
                          result.options.symmetrisation == recipes.back().symmetrisation;
     if (!is_last) {
-        // Whoever watches the stages sees those that count last.
-        for (const char* stage : {"field", "map", "extraction"}) finish_stage(stage);
+        // Whoever watches the stages sees those that count last. The time since is relaxation's.
+        for (const char* stage : {"relaxation", "field", "map", "extraction"}) finish_stage(stage);
     }
     return quads;
 }

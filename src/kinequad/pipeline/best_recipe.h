@@ -35,8 +35,8 @@ struct RecipeSteps {
 /// ones: those whose quads have the best angles over some frames of the `views`, a singularity
 /// weighing as much as 0.2 % of them. Keeps in `result` the one that is best once it is relaxed:
 /// fewest folded quads in the pose `reference` (n x 3) of `frames`, the surface of the run, then
-/// angles, which count for more where quads are farther than 0.6 edge lengths from the input.
-/// Where they are much farther, up to two more are finished. Recipes that miss the wanted number of
+/// angles and, a tenth as much, the Hausdorff distance. Where they are farther from the input than
+/// usual, up to two more are finished. Recipes that miss the wanted number of
 /// vertices stand behind the others, and those that fail are left out, unless all do. Returns the
 /// finished quads. Throws what the `steps` throw. docs/pipeline.md
 QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& reference,

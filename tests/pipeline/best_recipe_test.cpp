@@ -104,7 +104,7 @@ protected:
         Context context;
         context.threads = threads;
         context.log = [&](LogLevel, std::string_view line) { log_.emplace_back(line); };
-        return finish_best_recipe(source_, mesh_.V, views_, result_, {solve, finish}, context,
+        return finish_best_recipe(source_, mesh_.V, views_, result_, {solve, finish, 2}, context,
                                   [&](const char* stage) { stages_.emplace_back(stage); });
     }
 

@@ -99,21 +99,18 @@ bool may_be_replaced(const std::exception_ptr& failure) {
     }
 }
 
-/// Candidates that are finished at the same time.
-constexpr std::size_t batch = 2;
-
 /// Leaves the most promising of `candidates` alone, the best first: those that may still turn out
 /// best once they are relaxed.
 void keep_promising(std::vector<Candidate>& candidates) {
-    constexpr std::size_t most_kept = 2 * batch;
+    constexpr std::ptrdiff_t most_kept = 4;
     constexpr double most_behind = 0.08;
     std::stable_sort(candidates.begin(), candidates.end());
     const Candidate& best = candidates.front();
     const auto end = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
         return c.is_off_count != best.is_off_count || c.cost() > (1 + most_behind) * best.cost();
     });
-    const auto kept = std::min<std::ptrdiff_t>(end - candidates.begin(), most_kept);
-    candidates.erase(candidates.begin() + kept, candidates.end());
+    candidates.erase(candidates.begin() + std::min(end - candidates.begin(), most_kept),
+                     candidates.end());
 }
 
 /// The most promising of `recipes`, solved one after the other, the best first. Those that fail are
@@ -236,15 +233,16 @@ QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& referenc
     constexpr double usual_distance = 0.65;
     const std::vector<Options> recipes = list_recipes(result.options);
     std::vector<Candidate> candidates = solve_recipes(recipes, views, result, steps.solve, context);
+    // Without relaxation all is known already.
+    if (result.options.relax_rounds == 0)
+        candidates.erase(candidates.begin() + 1, candidates.end());
     std::optional<std::size_t> best;
     Grade least;
     QuadMesh quads;
     std::exception_ptr failure;
-    const auto is_good = [&] {
-        return best && least.folded == 0 && least.distance <= usual_distance;
-    };
-    for (std::size_t i = 0; i < candidates.size() && !is_good();) {
-        const std::size_t count = std::min(batch, candidates.size() - i);
+    const auto is_close = [&] { return best && least.distance <= usual_distance; };
+    for (std::size_t i = 0; i < candidates.size() && !is_close();) {
+        const std::size_t count = std::min(steps.together, candidates.size() - i);
         for (Finished& made :
              finish_together(std::span(candidates).subspan(i, count), steps, context)) {
             const std::size_t candidate = i++;

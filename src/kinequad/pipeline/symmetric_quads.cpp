@@ -267,7 +267,8 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
         for (SurfacePoint& point : quads.vertex) point = point_of_input(split.mesh, point);
         return quads;
     };
-    return finish_best_recipe(frames, reference, views, result, {solve, finish}, context,
+    // The two ways to symmetry come out about as good as each other before relaxation.
+    return finish_best_recipe(frames, reference, views, result, {solve, finish, 2}, context,
                               finish_stage);
 }
 
@@ -319,8 +320,8 @@ QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const
                      : solved.quads;
         return mirror_quads(surface, result, solved, half_quads, are_tied, own);
     };
-    QuadMesh quads = finish_best_recipe(frames, reference, views, result, {solve, finish}, context,
-                                        finish_stage);
+    QuadMesh quads = finish_best_recipe(frames, reference, views, result, {solve, finish, 1},
+                                        context, finish_stage);
     result.mirror = judge_mirror(surface, result.symmetry->map, quads);
     return quads;
 }

@@ -58,84 +58,117 @@ bool SlidingQuads::close_gaps_at(int v, Gaps& gaps) {
     return true;
 }
 
-/// The same for `v` and the free vertices of the quads around it, which go along half as far: where
-/// a tip has to be reached, no vertex gets there alone.
-bool SlidingQuads::drag(int v, Gaps& gaps) {
-    constexpr double following_share = 0.5;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::vector<int> moved = {v};
-    for (const int c : corners_of(v)) {
-        for (const int k : {1, 2, 3}) {
-            if (is_pinned_[at(neighbour(c, k))] == 0) moved.push_back(neighbour(c, k));
+/// A vertex and the free ones of the quads around it, which go along half as far: where a tip has
+/// to be reached, no vertex gets there alone.
+class SlidingQuads::Patch {
+public:
+    Patch(SlidingQuads& quads, int middle)
+        : sliding_(quads), middle_(middle), vertices_(vertices_with(quads, middle)) {
+        before_ = places();
+    }
+
+    const std::vector<int>& vertices() const { return vertices_; }
+
+    std::vector<SurfacePoint> places() const {
+        std::vector<SurfacePoint> points;
+        points.reserve(vertices_.size());
+        for (const int v : vertices_) points.push_back(sliding_.quads_.vertex[at(v)]);
+        return points;
+    }
+
+    void put(const std::vector<SurfacePoint>& points) {
+        for (std::size_t i = 0; i < vertices_.size(); ++i) sliding_.place(vertices_[i], points[i]);
+    }
+
+    void put_back() { put(before_); }
+
+    /// Moves the middle by `move` (in space) over the surface as it lies in the pose `X` (n x 3),
+    /// from where it was at first.
+    void move(const Vector3& move, const Positions& X) {
+        constexpr double following_share = 0.5;
+        for (std::size_t i = 0; i < vertices_.size(); ++i) {
+            const auto tangents = sliding_.embedding(before_[i].triangle, X);
+            const Vector2 step =
+                (tangents.transpose() * tangents).ldlt().solve(tangents.transpose() * move);
+            const double share = vertices_[i] == middle_ ? 1 : following_share;
+            sliding_.place(vertices_[i],
+                           step.allFinite()
+                               ? sliding_.walked(vertices_[i], before_[i], share * step)
+                               : before_[i]);
         }
     }
-    sort_unique(moved);
-    const Gaps::Surroundings around = gaps.surroundings(moved);
-    const auto places = [&] {
-        std::vector<SurfacePoint> points;
-        points.reserve(moved.size());
-        for (const int w : moved) points.push_back(quads_.vertex[at(w)]);
-        return points;
-    };
-    const auto put = [&](const std::vector<SurfacePoint>& points) {
-        for (std::size_t i = 0; i < moved.size(); ++i) place(moved[i], points[i]);
-    };
+
+    /// Lengths of the shortest edge, as in `shortest_edge`, and of the longest, as in
+    /// `longest_edge`, at the vertices.
+    std::pair<double, double> extent() const {
+        std::pair<double, double> edges = {std::numeric_limits<double>::infinity(), 0};
+        for (const int v : vertices_) {
+            edges.first = std::min(edges.first, sliding_.shortest_edge(v));
+            edges.second = std::max(edges.second, sliding_.longest_edge(v));
+        }
+        return edges;
+    }
+
+private:
+    static std::vector<int> vertices_with(const SlidingQuads& quads, int middle) {
+        std::vector<int> vertices = {middle};
+        for (const int c : quads.corners_of(middle)) {
+            for (const int k : {1, 2, 3}) {
+                const int v = quads.neighbour(c, k);
+                if (quads.is_pinned_[at(v)] == 0) vertices.push_back(v);
+            }
+        }
+        sort_unique(vertices);
+        return vertices;
+    }
+
+    SlidingQuads& sliding_;
+    int middle_;
+    std::vector<int> vertices_;
+    std::vector<SurfacePoint> before_;
+};
+
+/// As `close_gaps_at`, for `v` and the patch around it.
+bool SlidingQuads::drag(int v, Gaps& gaps) {
+    Patch patch(*this, v);
+    const Gaps::Surroundings around = gaps.surroundings(patch.vertices());
     const auto least_jacobian = [&] {
         double least = 1;
         for (const int q : around.quads) least = std::min(least, least_jacobian_of(q));
         return least;
     };
-    const auto extent = [&] {
-        std::pair<double, double> edges = {infinity, 0};
-        for (const int w : moved) {
-            edges.first = std::min(edges.first, shortest_edge(w));
-            edges.second = std::max(edges.second, longest_edge(w));
-        }
-        return edges;
-    };
-    const std::vector<SurfacePoint> before = places();
     const double least_allowed = std::min(least_jacobian(), least_closing_jacobian);
-    const auto [shortest, longest] = extent();
+    const auto [shortest, longest] = patch.extent();
     const double shortest_allowed = std::min(shortest, least_edge_share * frames_[0].mean_edge);
     const double longest_allowed = std::max(longest, most_stretch);
+    const auto is_allowed = [&] {
+        const auto [shortest_now, longest_now] = patch.extent();
+        return shortest_now >= shortest_allowed && longest_now <= longest_allowed &&
+               least_jacobian() >= least_allowed;
+    };
 
     const Frame& frame = frames_[around.frames.front()];
     const double size = shortest_edge(v) * frame.mean_edge / frames_[0].mean_edge;
-    double least_cost = gaps.cost(around, compared_frames, infinity);
+    double least_cost = gaps.cost(around, compared_frames, std::numeric_limits<double>::infinity());
     std::vector<SurfacePoint> best;
-    const auto keep_if_best = [&] {
-        const auto [shortest_now, longest_now] = extent();
-        if (shortest_now < shortest_allowed || longest_now > longest_allowed) return;
-        if (least_jacobian() < least_allowed) return;
+    for (const Vector3& move :
+         moves_in_plane(embedding(quads_.vertex[at(v)].triangle, frame.input))) {
+        patch.move(size * move, frame.input);
+        if (!is_allowed()) continue;
         const double cost = gaps.cost(around, compared_frames, least_cost);
-        if (cost >= least_cost) return;
+        if (cost >= least_cost) continue;
         least_cost = cost;
-        best = places();
-    };
-    const auto move_all = [&](const Vector3& move) {
-        for (std::size_t i = 0; i < moved.size(); ++i) {
-            const auto tangents = embedding(before[i].triangle, frame.input);
-            const Vector2 step =
-                (tangents.transpose() * tangents).ldlt().solve(tangents.transpose() * move);
-            const double share = moved[i] == v ? 1 : following_share;
-            place(moved[i],
-                  step.allFinite() ? walked(moved[i], before[i], share * step) : before[i]);
+        best = patch.places();
+    }
+    if (!best.empty()) {
+        patch.put(best);
+        if (gaps.cost(around, frames_.size(), around.cost) < around.cost) {
+            gaps.update(around);
+            return true;
         }
-    };
-    const Eigen::Matrix<double, 3, 2> tangents =
-        embedding(quads_.vertex[at(v)].triangle, frame.input);
-    for (const Vector3& move : moves_in_plane(tangents)) {
-        move_all(size * move);
-        keep_if_best();
     }
-    put(best.empty() ? before : best);
-    if (best.empty()) return false;
-    if (gaps.cost(around, frames_.size(), around.cost) >= around.cost) {
-        put(before);
-        return false;
-    }
-    gaps.update(around);
-    return true;
+    patch.put_back();
+    return false;
 }
 
 std::vector<double> SlidingQuads::close_gaps(double limit, bool drags_patches,

@@ -151,6 +151,7 @@ private:
     };
 
     class Gaps;
+    class Patch;
     /// Steps of a search for a better place.
     struct Steps {
         int directions = 12;

@@ -78,6 +78,7 @@ protected:
         stages_.clear();
         relaxed_ = std::vector<char>(recipes_.size(), 0);
         log_.clear();
+        warnings_.clear();
         result_.options = options_;
         result_.edge_length = 0.4;
         const auto solve = [&] {
@@ -93,6 +94,7 @@ protected:
         const auto finish = [&](const SolvedRecipe& solved, const Context& context) {
             const std::size_t i = number_of(solved.options);
             context.write_log(LogLevel::info, "relaxes " + std::to_string(i));
+            context.write_log(LogLevel::warning, "relaxed " + std::to_string(i));
             relaxed_[i] = 1;
             if (outcomes[i].fails_when_relaxed) {
                 throw VerificationError("relaxed " + std::to_string(i));
@@ -103,7 +105,9 @@ protected:
         };
         Context context;
         context.threads = threads;
-        context.log = [&](LogLevel, std::string_view line) { log_.emplace_back(line); };
+        context.log = [&](LogLevel level, std::string_view line) {
+            (level == LogLevel::warning ? warnings_ : log_).emplace_back(line);
+        };
         return finish_best_recipe(source_, mesh_.V, views_, result_, {solve, finish, 2}, context,
                                   [&](const char* stage) { stages_.emplace_back(stage); });
     }
@@ -119,6 +123,7 @@ protected:
     std::vector<std::string> stages_;
     std::vector<char> relaxed_;
     std::vector<std::string> log_;
+    std::vector<std::string> warnings_;
 };
 
 TEST_F(BestRecipe, IsTheOneWithTheBestAngles) {
@@ -157,6 +162,7 @@ TEST_F(BestRecipe, IsTheOneThatIsBestOnceItIsRelaxed) {
     const QuadMesh quads = choose(outcomes);
     EXPECT_TRUE(is_kept(2));
     EXPECT_EQ(quads.vertex, slanted(0.05).vertex);
+    EXPECT_EQ(warnings_, (std::vector<std::string>{"relaxed 2"}));
     // Those far behind are not relaxed.
     EXPECT_EQ(relaxed_, (std::vector<char>{1, 0, 1, 0, 0}));
 

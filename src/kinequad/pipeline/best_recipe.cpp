@@ -149,22 +149,22 @@ std::vector<Candidate> solve_recipes(const std::vector<Options>& recipes,
 struct Finished {
     QuadMesh quads;
     std::exception_ptr failure;
-    std::vector<std::pair<LogLevel, std::string>> log;
+    std::vector<std::pair<LogLevel, std::string>> lines;  ///< without the warnings
+    std::vector<std::string> warnings;
 };
 
-/// Finishes `candidates` at the same time. Log lines are kept until all are done; progress is that
-/// of the first.
+/// Finishes `candidates` at the same time. Log lines are kept back until all are done, warnings
+/// for whoever takes the quads; progress is that of the first.
 std::vector<Finished> finish_together(std::span<const Candidate> candidates,
                                       const RecipeSteps& steps, const Context& context) {
     std::vector<Finished> finished(candidates.size());
     parallel_for(candidates.size(), 1, context, [&](std::size_t i, std::size_t) {
         Context own = context;
         if (i > 0) own.progress = nullptr;
-        if (context.log && candidates.size() > 1) {
-            own.log = [&lines = finished[i].log](LogLevel level, std::string_view line) {
-                lines.emplace_back(level, line);
-            };
-        }
+        own.log = [&made = finished[i]](LogLevel level, std::string_view line) {
+            if (level == LogLevel::warning) made.warnings.emplace_back(line);
+            if (level != LogLevel::warning) made.lines.emplace_back(level, line);
+        };
         try {
             finished[i].quads = steps.finish(candidates[i].recipe, own);
         } catch (...) {
@@ -172,7 +172,7 @@ std::vector<Finished> finish_together(std::span<const Candidate> candidates,
         }
     });
     for (const Finished& made : finished) {
-        for (const auto& [level, line] : made.log) context.write_log(level, line);
+        for (const auto& [level, line] : made.lines) context.write_log(level, line);
     }
     return finished;
 }
@@ -238,7 +238,7 @@ QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& referenc
         candidates.erase(candidates.begin() + 1, candidates.end());
     std::optional<std::size_t> best;
     Grade least;
-    QuadMesh quads;
+    Finished kept;
     std::exception_ptr failure;
     const auto is_close = [&] { return best && least.distance <= usual_distance; };
     for (std::size_t i = 0; i < candidates.size() && !is_close();) {
@@ -259,10 +259,11 @@ QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& referenc
             if (best && !(grade < least)) continue;
             best = candidate;
             least = grade;
-            quads = std::move(made.quads);
+            kept = std::move(made);
         }
     }
     if (!best) std::rethrow_exception(failure);
+    for (const std::string& line : kept.warnings) context.write_log(LogLevel::warning, line);
     put_recipe(std::move(candidates[*best].recipe), result);
     const bool is_last = result.options.alpha == recipes.back().alpha &&
                          result.options.symmetrisation == recipes.back().symmetrisation;
@@ -270,7 +271,7 @@ QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& referenc
         // Whoever watches the stages sees those that count last. The time since is relaxation's.
         for (const char* stage : {"relaxation", "field", "map", "extraction"}) finish_stage(stage);
     }
-    return quads;
+    return std::move(kept.quads);
 }
 
 }  // namespace kinequad

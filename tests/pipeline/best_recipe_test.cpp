@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
@@ -204,6 +205,12 @@ TEST_F(BestRecipe, IsFoundAmongThoseThatDoNotFailWhenRelaxed) {
     outcomes[3] = {.slant = 0.102, .relaxed_slant = 0.1};
     choose(outcomes);
     EXPECT_TRUE(is_kept(3));
+    EXPECT_EQ(std::count_if(log_.begin(), log_.end(),
+                            [](const std::string& line) {
+                                return line.starts_with("recipe: not relaxed") &&
+                                       line.ends_with("relaxed 0");
+                            }),
+              1);
     outcomes[3].fails_when_relaxed = true;
     try {
         choose(outcomes);

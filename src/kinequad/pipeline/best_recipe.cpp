@@ -88,14 +88,13 @@ std::string name_of(const Options& recipe) {
         recipe.symmetrisation == Symmetrisation::orbits ? " and orbits averaged" : "");
 }
 
-/// Whether another recipe may take the place of one that failed with `failure`.
-bool may_be_replaced(const std::exception_ptr& failure) {
+/// Why a recipe failed with `failure`, where another may take its place; throws it where none may.
+std::string reason_of(const std::exception_ptr& failure) {
     try {
         std::rethrow_exception(failure);
     } catch (const Error& error) {
-        return may_be_overcome(error);
-    } catch (...) {
-        return false;
+        if (!may_be_overcome(error)) throw;
+        return error.what();
     }
 }
 
@@ -246,16 +245,17 @@ QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& referenc
         for (Finished& made :
              finish_together(std::span(candidates).subspan(i, count), steps, context)) {
             const std::size_t candidate = i++;
+            const std::string name = name_of(candidates[candidate].recipe.options);
             if (made.failure) {
-                if (!may_be_replaced(made.failure)) std::rethrow_exception(made.failure);
+                context.write_log(LogLevel::info, fmt::format("recipe: not relaxed with {}: {}",
+                                                              name, reason_of(made.failure)));
                 if (!failure) failure = made.failure;
                 continue;
             }
             const Grade grade =
                 candidates.size() == 1
                     ? Grade()
-                    : grade_of(made.quads, frames, reference, result.edge_length,
-                               name_of(candidates[candidate].recipe.options), context);
+                    : grade_of(made.quads, frames, reference, result.edge_length, name, context);
             if (best && !(grade < least)) continue;
             best = candidate;
             least = grade;

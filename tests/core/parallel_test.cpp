@@ -1,12 +1,14 @@
 #include "kinequad/core/parallel.h"
 
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
 #include <atomic>
 #include <cmath>
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -93,6 +95,17 @@ TEST(ParallelFor, HandsOnWhatABodyThrows) {
                                   }),
                      std::domain_error);
     }
+}
+
+TEST(RunOnOneThread, KeepsTasksOfOthersToItself) {
+    std::atomic<int> elsewhere{0};
+    run_on_one_thread([&] {
+        const std::thread::id here = std::this_thread::get_id();
+        tbb::parallel_for(0, 1000, [&](int) {
+            if (std::this_thread::get_id() != here) ++elsewhere;
+        });
+    });
+    EXPECT_EQ(elsewhere, 0);
 }
 
 TEST(ParallelFor, NestsInsideItself) {

@@ -1,6 +1,7 @@
 #include "kinequad/mesh/closest_points.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <limits>
@@ -85,6 +86,16 @@ void expect_same_as_brute_force(const TriangleMesh& mesh, const ClosestPoints& s
         ASSERT_EQ(beyond.squared_distance, exact) << "point " << i;
         ASSERT_EQ(beyond.point.triangle, expected.point.triangle) << "point " << i;
     }
+}
+
+TEST(ClosestPoints, BindNobodyElseToOneThread) {
+    const auto allowed = [] {
+        return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    };
+    const std::size_t before = allowed();
+    const TriangleMesh mesh = random_soup(10, 1);
+    const ClosestPoints surface(mesh.V, mesh.F);
+    EXPECT_EQ(allowed(), before);
 }
 
 TEST(ClosestPointOnTriangle, FindsInsideSidesAndCorners) {

@@ -23,4 +23,9 @@ void parallel_for(std::size_t count, std::size_t block, const Context& context,
     arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, run_block); });
 }
 
+void run_on_one_thread(const std::function<void()>& body) {
+    tbb::task_arena arena(1);
+    arena.execute(body);
+}
+
 }  // namespace kinequad

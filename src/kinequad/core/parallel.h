@@ -14,4 +14,8 @@ namespace kinequad {
 void parallel_for(std::size_t count, std::size_t block, const Context& context,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// Runs `body` on the calling thread, and the tasks of libraries that it calls as well, which would
+/// else go to all cores.
+void run_on_one_thread(const std::function<void()>& body);
+
 }  // namespace kinequad

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "kinequad/core/error.h"
+#include "kinequad/core/parallel.h"
 #include "kinequad/mesh/closest_point_on_triangle.h"
 
 namespace kinequad {
@@ -81,16 +82,17 @@ struct ClosestPoints::Search {
     void commit() {
         rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(F.rows()));
         rtcCommitGeometry(geometry);
-        rtcCommitScene(scene);
+        // Callers that have several hierarchies build them in parallel.
+        run_on_one_thread([this] { rtcCommitScene(scene); });
         if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
             throw std::runtime_error("Embree could not build its hierarchy");
         }
     }
 
     void build() {
-        // Alone Embree would use all cores, whatever the context allows; callers that have several
-        // hierarchies build them in parallel.
-        device = rtcNewDevice("threads=1");
+        // A number of threads given here would bind all tasks of the program while the device is
+        // alive, not only Embree's.
+        device = rtcNewDevice(nullptr);
         if (device == nullptr) throw std::runtime_error("Embree cannot be started");
         scene = rtcNewScene(device);
         rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC);

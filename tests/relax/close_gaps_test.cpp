@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "kinequad/relax/sliding_quads.h"
@@ -23,7 +24,7 @@ TEST(CloseGaps, CoversASpikeThatOnlyAnotherFrameShows) {
     Positions bent = grid.mesh.V;
     bent(tip, 2) = 0;
     SlidingQuads sliding = grid.sliding({{bent, 1}, {grid.mesh.V, 1}});
-    const std::vector<double> left = sliding.close_gaps(0.45, false, {});
+    const std::vector<double> left = sliding.close_gaps({0.45}, {}).at_quads;
     grid.expect_kept(sliding.quads());
     EXPECT_GT(grid.least_jacobian(sliding.quads(), bent), 0.1);
     Grid after = grid;
@@ -38,8 +39,38 @@ TEST(CloseGaps, CoversASpikeThatOnlyAnotherFrameShows) {
 TEST(CloseGaps, LeavesQuadsAloneThatAreNear) {
     const Grid grid(landscape(14, hill), 7, 0.3);
     SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}, {sheared(grid.mesh.V, 0.5), 1}});
-    sliding.close_gaps(0.45, false, {});
+    sliding.close_gaps({0.45}, {});
     EXPECT_TRUE(sliding.regions_moved_since({grid.quads.vertex, {}}).empty());
+}
+
+/// What is near is told apart less well, but what is far is as far.
+TEST(CloseGaps, TellsFarPlacesAsWellWhenRough) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    SlidingQuads exact = grid.sliding({{grid.mesh.V, 1}});
+    SlidingQuads rough = grid.sliding({{grid.mesh.V, 1}});
+    // With a limit that nothing exceeds both only look.
+    const GapsLeft known = exact.close_gaps({2}, {});
+    const GapsLeft roughly_known = rough.close_gaps({2, true}, {});
+    EXPECT_TRUE(rough.regions_moved_since({grid.quads.vertex, {}}).empty());
+    EXPECT_GT(known.mean_farthest, roughly_near_share / 2);
+    EXPECT_EQ(known.mean_farthest, roughly_known.mean_farthest);
+    for (std::size_t q = 0; q < known.at_quads.size(); ++q) {
+        EXPECT_NEAR(roughly_known.at_quads[q], known.at_quads[q], roughly_near_share / 2) << q;
+    }
+}
+
+TEST(CloseGaps, CountsTheFarthestOfEveryFrame) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    Positions bent = grid.mesh.V;
+    bent(tip, 2) = 0;
+    const auto farthest = [&](std::vector<SampledFrame> frames) {
+        return grid.sliding(std::move(frames)).close_gaps({2}, {}).mean_farthest;
+    };
+    const double flat = farthest({{bent, 1}});
+    const double spiked = farthest({{grid.mesh.V, 1}});
+    EXPECT_NEAR(farthest({{bent, 1}, {grid.mesh.V, 0}}), (flat + spiked) / 2, 1e-12);
 }
 
 /// Cones of many heights between the vertices of the grid.
@@ -52,8 +83,8 @@ TEST(CloseGaps, DraggedPatchesComeCloserThanVerticesAlone) {
         const Grid grid(landscape(24, cone), 6, 0);
         SlidingQuads alone = grid.sliding({{grid.mesh.V, 1}});
         SlidingQuads dragged = grid.sliding({{grid.mesh.V, 1}});
-        const double left_alone = largest(alone.close_gaps(0.3, false, {}));
-        const double left = largest(dragged.close_gaps(0.3, true, {}));
+        const double left_alone = largest(alone.close_gaps({0.3}, {}).at_quads);
+        const double left = largest(dragged.close_gaps({0.3, false, true}, {}).at_quads);
         grid.expect_kept(dragged.quads());
         EXPECT_GT(grid.least_jacobian(dragged.quads(), grid.mesh.V), 0) << height;
         EXPECT_LE(left, left_alone + 1e-12) << height;

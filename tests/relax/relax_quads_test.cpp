@@ -283,6 +283,43 @@ TEST(RelaxQuads, SettlesInFramesBetweenTheSampledOnes) {
     EXPECT_LT(farthest(12), 0.5 / 6);
 }
 
+TEST(SettleInMoreFrames, ClosesAGapThatOnlyOneOfThemShows) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    Positions flattened = grid.mesh.V;
+    flattened(tip, 2) = 0;
+    std::vector<Positions> frames(12, flattened);
+    frames[7] = grid.mesh.V;
+    const MemorySequence sequence(grid.mesh.F, frames);
+    const auto farthest = [&](int watched_frames) {
+        Grid after = grid;
+        after.quads =
+            settle_in_more_frames(grid.quads, {{sequence, flattened}}, grid.topology, grid.metric,
+                                  {.settling_frames = 3, .watched_frames = watched_frames}, {});
+        grid.expect_kept(after.quads);
+        EXPECT_GT(grid.least_jacobian(after.quads, flattened), 0.1);
+        return after.farthest();
+    };
+    for (const int too_few : {0, 3, 4}) EXPECT_GT(farthest(too_few), 0.6 / 6);
+    EXPECT_LT(farthest(12), 0.5 / 6);
+}
+
+TEST(SettleInMoreFrames, CountsShapesInTheSettlingFramesAlone) {
+    const Grid grid(landscape(14, flat), 7, 0.45);
+    // What is watched beside these is sheared so much that squares would be far from squares.
+    std::vector<Positions> frames(8, grid.mesh.V);
+    const MemorySequence straight(grid.mesh.F, frames);
+    for (const int f : {1, 3, 5, 7}) frames[static_cast<std::size_t>(f)] = sheared(grid.mesh.V, 2);
+    const MemorySequence mixed(grid.mesh.F, frames);
+    const auto settled = [&](const MemorySequence& sequence) {
+        return settle_in_more_frames(grid.quads, {{sequence, grid.mesh.V}}, grid.topology,
+                                     grid.metric, {.settling_frames = 4, .watched_frames = 8}, {});
+    };
+    const QuadMesh quads = settled(mixed);
+    EXPECT_EQ(quads.vertex, settled(straight).vertex);
+    EXPECT_LT(grid.cost(quads, grid.mesh.V), 0.2 * grid.cost(grid.quads, grid.mesh.V));
+}
+
 TEST(RelaxQuads, LooksAtTheFirstFrameWhateverTheReference) {
     int tip = -1;
     const Grid grid = spiked(&tip);

@@ -195,14 +195,43 @@ RelaxOptions relax_options(const Options& run, int vertex_count) {
     // vertices there are fewer frames, so that memory stays within bounds.
     constexpr int most_frames = 24;
     constexpr int most_positions = 2'000'000;
-    options.settling_frames = std::min(most_frames, most_positions / std::max(1, vertex_count));
+    const int frames_in_bounds = most_positions / std::max(1, vertex_count);
+    options.settling_frames = std::min(most_frames, frames_in_bounds);
+    options.watched_frames = frames_in_bounds;
+    options.watched_rounds = run.relax_rounds;
     const bool is_mirrored = run.symmetry == SymmetryMode::exact;
-    options.rounds = run.relax_rounds * (is_mirrored ? 9 : 8) / 4;
-    options.settling_rounds = run.relax_rounds * (is_mirrored ? 4 : 3) / 2;
+    const bool is_ours = run.field == CrossFieldMethod::convex;
+    options.rounds = run.relax_rounds * (is_mirrored ? 9 : is_ours ? 16 : 8) / 4;
+    options.settling_rounds = run.relax_rounds * (is_mirrored ? 8 : is_ours ? 12 : 6) / 4;
     options.gap_limit = is_mirrored ? 0.46 : 0.43;
     // Mirrored quads gain nothing by it. docs/relaxation.md
-    options.drags_patches = !is_mirrored && run.field == CrossFieldMethod::convex;
+    options.drags_patches = !is_mirrored && is_ours;
     return options;
+}
+
+/// What `relax`, `relax_quads` or `settle_in_more_frames`, makes of `quads` over `domain`,
+/// verified; unless there is no relaxation.
+QuadMesh slide_on_domain(decltype(relax_quads)& relax, const Domain& domain,
+                         const std::vector<DomainView>& views,
+                         const std::vector<int>& feature_edges, const QuadMesh& quads,
+                         const Options& run, const Context& context) {
+    if (run.relax_rounds == 0) return quads;
+    RelaxOptions options =
+        relax_options(run, static_cast<int>(views.size()) * domain.surface.mesh.vertex_count);
+    options.reference_frame = is_single_pose(run) ? std::optional<int>(0)
+                              : run.reference != Options::rest_shape
+                                  ? std::optional<int>(run.reference)
+                                  : std::nullopt;
+    options.line_edges = domain.curve_edges();
+    for (const std::vector<int>& lines : {boundary_edges(domain.topology), feature_edges}) {
+        options.line_edges.insert(options.line_edges.end(), lines.begin(), lines.end());
+    }
+    std::vector<RelaxView> relax_views;
+    relax_views.reserve(views.size());
+    for (const DomainView& view : views) relax_views.push_back({view.frames, view.reference});
+    QuadMesh relaxed = relax(quads, relax_views, domain.topology, domain.metric, options, context);
+    require_valid(verify_quad_mesh(relaxed, domain.topology));
+    return relaxed;
 }
 
 }  // namespace
@@ -277,24 +306,14 @@ bool may_be_overcome(const Error& error) {
 QuadMesh relax_on_domain(const Domain& domain, const std::vector<DomainView>& views,
                          const std::vector<int>& feature_edges, const QuadMesh& quads,
                          const Options& run, const Context& context) {
-    if (run.relax_rounds == 0) return quads;
-    RelaxOptions options =
-        relax_options(run, static_cast<int>(views.size()) * domain.surface.mesh.vertex_count);
-    options.reference_frame = is_single_pose(run) ? std::optional<int>(0)
-                              : run.reference != Options::rest_shape
-                                  ? std::optional<int>(run.reference)
-                                  : std::nullopt;
-    options.line_edges = domain.curve_edges();
-    for (const std::vector<int>& lines : {boundary_edges(domain.topology), feature_edges}) {
-        options.line_edges.insert(options.line_edges.end(), lines.begin(), lines.end());
-    }
-    std::vector<RelaxView> relax_views;
-    relax_views.reserve(views.size());
-    for (const DomainView& view : views) relax_views.push_back({view.frames, view.reference});
-    QuadMesh relaxed =
-        relax_quads(quads, relax_views, domain.topology, domain.metric, options, context);
-    require_valid(verify_quad_mesh(relaxed, domain.topology));
-    return relaxed;
+    return slide_on_domain(relax_quads, domain, views, feature_edges, quads, run, context);
+}
+
+QuadMesh settle_on_domain(const Domain& domain, const std::vector<DomainView>& views,
+                          const std::vector<int>& feature_edges, const QuadMesh& quads,
+                          const Options& run, const Context& context) {
+    return slide_on_domain(settle_in_more_frames, domain, views, feature_edges, quads, run,
+                           context);
 }
 
 }  // namespace kinequad

@@ -64,4 +64,10 @@ QuadMesh relax_on_domain(const Domain& domain, const std::vector<DomainView>& vi
                          const std::vector<int>& feature_edges, const QuadMesh& quads,
                          const Options& run, const Context& context);
 
+/// Brings quads that `relax_on_domain` has made closer to the input in all frames at last, in the
+/// same way and with the same arguments.
+QuadMesh settle_on_domain(const Domain& domain, const std::vector<DomainView>& views,
+                          const std::vector<int>& feature_edges, const QuadMesh& quads,
+                          const Options& run, const Context& context);
+
 }  // namespace kinequad

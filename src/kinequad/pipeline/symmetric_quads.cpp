@@ -268,8 +268,15 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
         return quads;
     };
     // The two ways to symmetry come out about as good as each other before relaxation.
-    return finish_best_recipe(frames, reference, views, result, {solve, finish, 2}, context,
-                              finish_stage);
+    QuadMesh quads = finish_best_recipe(frames, reference, views, result, {solve, finish, 2},
+                                        context, finish_stage);
+    if (result.options.field == CrossFieldMethod::paper) return quads;
+    const RefinementSearch search(split.mesh);
+    for (SurfacePoint& point : quads.vertex) point = search.find(point);
+    quads = settle_on_domain(cut.domain(), views, result.map.feature_edges, quads, result.options,
+                             context);
+    for (SurfacePoint& point : quads.vertex) point = point_of_input(split.mesh, point);
+    return quads;
 }
 
 QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const Context& context,

@@ -15,8 +15,6 @@
 namespace kinequad {
 namespace {
 
-/// Where places are compared, the frames with the largest distances are enough.
-constexpr std::size_t compared_frames = 3;
 /// No move takes a scaled Jacobian below this, or below what it is.
 constexpr double least_closing_jacobian = 0.1;
 
@@ -39,7 +37,7 @@ std::vector<Vector3> moves_in_plane(const Eigen::Matrix<double, 3, 2>& tangents)
 
 /// Moves vertex `v` to where quads and input are closer in all frames, and angles not much worse.
 /// Returns whether there is such a place.
-bool SlidingQuads::close_gaps_at(int v, Gaps& gaps) {
+bool SlidingQuads::close_gaps_at(int v, Gaps& gaps, const Context& context) {
     static const Steps steps{6, {0.4, 0.16, 0.06}, true};
     const Gaps::Surroundings around = gaps.surroundings({v});
     const SurfacePoint before = quads_.vertex[at(v)];
@@ -47,15 +45,12 @@ bool SlidingQuads::close_gaps_at(int v, Gaps& gaps) {
     const double longest = std::max(longest_edge(v), most_stretch);
     const bool is_moved = search_around(v, steps, [&](double least) {
         if (least_jacobian_around(v) < least_jacobian || longest_edge(v) > longest) return least;
-        return gaps.cost(around, compared_frames, least);
+        return gaps.rough_cost(around, least);
     });
     if (!is_moved) return false;
-    if (gaps.cost(around, frames_.size(), around.cost) >= around.cost) {
-        place(v, before);
-        return false;
-    }
-    gaps.update(around);
-    return true;
+    if (gaps.take_if_better(around, context)) return true;
+    place(v, before);
+    return false;
 }
 
 /// A vertex and the free ones of the quads around it, which go along half as far: where a tip has
@@ -129,7 +124,7 @@ private:
 };
 
 /// As `close_gaps_at`, for `v` and the patch around it.
-bool SlidingQuads::drag(int v, Gaps& gaps) {
+bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
     Patch patch(*this, v);
     const Gaps::Surroundings around = gaps.surroundings(patch.vertices());
     const auto least_jacobian = [&] {
@@ -149,37 +144,33 @@ bool SlidingQuads::drag(int v, Gaps& gaps) {
 
     const Frame& frame = frames_[around.frames.front()];
     const double size = shortest_edge(v) * frame.mean_edge / frames_[0].mean_edge;
-    double least_cost = gaps.cost(around, compared_frames, std::numeric_limits<double>::infinity());
+    double least_cost = gaps.rough_cost(around, std::numeric_limits<double>::infinity());
     std::vector<SurfacePoint> best;
     for (const Vector3& move :
          moves_in_plane(embedding(quads_.vertex[at(v)].triangle, frame.input))) {
         patch.move(size * move, frame.input);
         if (!is_allowed()) continue;
-        const double cost = gaps.cost(around, compared_frames, least_cost);
+        const double cost = gaps.rough_cost(around, least_cost);
         if (cost >= least_cost) continue;
         least_cost = cost;
         best = patch.places();
     }
     if (!best.empty()) {
         patch.put(best);
-        if (gaps.cost(around, frames_.size(), around.cost) < around.cost) {
-            gaps.update(around);
-            return true;
-        }
+        if (gaps.take_if_better(around, context)) return true;
     }
     patch.put_back();
     return false;
 }
 
-std::vector<double> SlidingQuads::close_gaps(double limit, bool drags_patches,
-                                             const Context& context) {
+GapsLeft SlidingQuads::close_gaps(const GapOptions& options, const Context& context) {
     constexpr int rounds = 8;
     constexpr double far_share = 0.8;
     release();
     parallel_for(frames_.size(), 1, context, [&](std::size_t f, std::size_t) {
         if (!frames_[f].surface) frames_[f].surface.emplace(frames_[f].input, F_);
     });
-    Gaps gaps(*this, limit, context);
+    Gaps gaps(*this, options, context);
     // Goes over the vertices up to `reach` quads around those that are far, until `is_moved` moves
     // none any more; where one has moved, those up to a quad farther on have another chance.
     const auto go_over = [&](int reach, std::size_t most, const auto& is_moved) {
@@ -204,19 +195,19 @@ std::vector<double> SlidingQuads::close_gaps(double limit, bool drags_patches,
     };
     // A search costs time: there is one for every other vertex, on average, and a patch is dragged
     // for every sixteenth.
-    go_over(1, quads_.vertex.size() / 2, [&](int v) { return close_gaps_at(v, gaps); });
-    if (drags_patches) {
+    go_over(1, quads_.vertex.size() / 2, [&](int v) { return close_gaps_at(v, gaps, context); });
+    if (options.drags_patches) {
         go_over(0, quads_.vertex.size() / 16, [&](int v) {
-            if (!drag(v, gaps)) return false;
+            if (!drag(v, gaps, context)) return false;
             for (const int c : corners_of(v)) {
                 for (const int w : vertices_around(c / 4, 0)) {
-                    if (is_pinned_[at(w)] == 0) close_gaps_at(w, gaps);
+                    if (is_pinned_[at(w)] == 0) close_gaps_at(w, gaps, context);
                 }
             }
             return true;
         });
     }
-    return gaps.at_quads();
+    return {gaps.at_quads(), gaps.mean_farthest()};
 }
 
 }  // namespace kinequad

@@ -16,6 +16,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Where places are compared, the frames with the largest distances are enough.
+constexpr std::size_t compared_frames = 3;
+
 double square(double x) { return x * x; }
 double eighth_power(double squared) { return square(square(squared)); }
 
@@ -28,15 +31,18 @@ double squared_distance_to_quad(const Vector3& point, const QuadCorners& p) {
 
 }  // namespace
 
-SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, double limit, const Context& context)
-    : sliding_(quads) {
+SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
+                         const Context& context)
+    : sliding_(quads), shape_weight_(options.shape_weight) {
     choose_points();
     choose_sides();
     views_.resize(sliding_.frames_.size());
     parallel_for(views_.size(), 1, context, [&](std::size_t f, std::size_t) {
         const Frame& frame = sliding_.frames_[f];
-        views_[f].unit = limit * frame.mean_edge;
-        look_at_all(f, context);
+        views_[f].unit = options.limit * frame.mean_edge;
+        views_[f].squared_near =
+            square((options.is_rough ? roughly_near_share : near_share) * frame.mean_edge);
+        look_at_all(f, options.is_rough, context);
     });
 }
 
@@ -52,6 +58,17 @@ std::vector<double> SlidingQuads::Gaps::at_quads() const {
         }
     }
     return farthest;
+}
+
+double SlidingQuads::Gaps::mean_farthest() const {
+    double sum = 0;
+    for (const View& view : views_) {
+        double farthest = 0;
+        for (const double distance : view.of_quad) farthest = std::max(farthest, distance);
+        for (const double distance : view.of_point) farthest = std::max(farthest, distance);
+        sum += farthest / view.unit;
+    }
+    return sum / static_cast<double>(views_.size());
 }
 
 std::vector<int> SlidingQuads::Gaps::quads_beyond(double distance) const {
@@ -96,17 +113,19 @@ SlidingQuads::Gaps::Surroundings SlidingQuads::Gaps::surroundings(
                 farthest = std::max(farthest, view.of_point[at(x)]);
             }
         }
-        // The farthest first: most places that are no better show it there.
-        std::sort(points.begin(), points.end(), [&](int x, int y) {
-            const double of_x = view.of_point[at(x)];
-            const double of_y = view.of_point[at(y)];
-            return of_x != of_y ? of_x > of_y : x < y;
-        });
         order.emplace_back(-farthest / view.unit, f);
         misfit += eighth_power(square(farthest / view.unit));
     }
     std::sort(order.begin(), order.end());
     for (const auto& [negative, f] : order) around.frames.push_back(f);
+    // The farthest first: most places that are no better show it there.
+    for (std::size_t i = 0; i < std::min(compared_frames, around.frames.size()); ++i) {
+        const std::size_t f = around.frames[i];
+        const std::vector<double>& of_point = views_[f].of_point;
+        std::sort(around.points[f].begin(), around.points[f].end(), [&](int x, int y) {
+            return of_point[at(x)] != of_point[at(y)] ? of_point[at(x)] > of_point[at(y)] : x < y;
+        });
+    }
     around.cost = shape_cost(around) + misfit;
     const View& worst = views_[around.frames.front()];
     std::sort(around.quads.begin(), around.quads.end(), [&](int q, int r) {
@@ -117,56 +136,84 @@ SlidingQuads::Gaps::Surroundings SlidingQuads::Gaps::surroundings(
     return around;
 }
 
-double SlidingQuads::Gaps::cost(const Surroundings& around, std::size_t frames,
-                                double enough) const {
+double SlidingQuads::Gaps::rough_cost(const Surroundings& around, double enough) const {
     const double shape = shape_cost(around);
-    if (shape >= enough) return shape;
-    return shape + misfit(around, std::min(frames, views_.size()), enough - shape);
-}
-
-/// Sum of the eighth powers of the largest distances in the first `frames` of the frames of
-/// `around`; does not add up beyond `enough`.
-double SlidingQuads::Gaps::misfit(const Surroundings& around, std::size_t frames,
-                                  double enough) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < frames && sum < enough; ++i) {
+    double misfit = 0;
+    for (std::size_t i = 0; i < std::min(compared_frames, views_.size()); ++i) {
+        const double left = enough - shape - misfit;
+        if (left <= 0) break;
         const std::size_t f = around.frames[i];
         const double squared_unit = square(views_[f].unit);
-        const double left = enough - sum;
         const double too_far =
             left < infinity ? squared_unit * std::sqrt(std::sqrt(left)) : infinity;
-        sum += eighth_power(squared_distance(around, f, too_far) / squared_unit);
+        misfit += eighth_power(squared_distance(around, f, too_far) / squared_unit);
     }
-    return sum;
+    return shape + misfit;
+}
+
+bool SlidingQuads::Gaps::take_if_better(const Surroundings& around, const Context& context) {
+    // Most places that are no better show it in the frames that come first.
+    constexpr std::size_t frames_together = 16;
+    constexpr std::size_t frames_of_thread = 4;
+    const double shape = shape_cost(around);
+    double misfit = 0;
+    std::vector<Look> seen;
+    while (seen.size() < views_.size()) {
+        if (shape + misfit >= around.cost) return false;
+        const std::size_t first = seen.size();
+        seen.resize(std::min(views_.size(), first + frames_together));
+        parallel_for(seen.size() - first, frames_of_thread, context,
+                     [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = first + begin; i < first + end; ++i) {
+                             seen[i] = look(around, around.frames[i]);
+                         }
+                     });
+        for (std::size_t i = first; i < seen.size(); ++i) {
+            misfit += eighth_power(seen[i].farthest / square(views_[around.frames[i]].unit));
+        }
+    }
+    if (shape + misfit >= around.cost) return false;
+    for (std::size_t i = 0; i < seen.size(); ++i) keep(around, around.frames[i], seen[i]);
+    return true;
 }
 
 /// What the shape of the quads that change counts beside their distances from the input.
 double SlidingQuads::Gaps::shape_cost(const Surroundings& around) const {
-    constexpr double weight = 3;
     double sum = 0;
-    for (const Frame& frame : sliding_.frames_) {
+    for (const Frame& frame : sliding_.shaped()) {
         for (std::size_t i = 0; i < around.quads.size(); ++i) {
             const QuadCorners corners = sliding_.corners_in(frame, around.patch[i]);
             sum += frame.weight * quad_cost(corners, relaxing_barrier);
         }
     }
-    return weight * sum / static_cast<double>(sliding_.frames_.size());
+    return shape_weight_ * sum / static_cast<double>(sliding_.shaped().size());
 }
 
-void SlidingQuads::Gaps::update(const Surroundings& around) {
-    for (std::size_t f = 0; f < views_.size(); ++f) {
-        View& view = views_[f];
-        for (const int q : around.quads) {
-            view.of_quad[at(q)] = std::sqrt(squared_distance_of(q, f));
-            view.points_of[at(q)].clear();
-        }
-        const double near_distance = near_share * sliding_.frames_[f].mean_edge;
-        for (const int x : around.points[f]) {
-            const auto [squared, q] = nearest_in(around.patch, x, f, square(near_distance));
-            view.nearest[at(x)] = q;
-            view.points_of[at(q)].push_back(x);
-            view.of_point[at(x)] = std::sqrt(squared);
-        }
+SlidingQuads::Gaps::Look SlidingQuads::Gaps::look(const Surroundings& around, std::size_t f) const {
+    Look seen;
+    for (const int q : around.quads) {
+        seen.of_quad.push_back(squared_distance_of(q, f));
+        seen.farthest = std::max(seen.farthest, seen.of_quad.back());
+    }
+    for (const int x : around.points[f]) {
+        seen.of_point.push_back(nearest_in(around.patch, x, f, views_[f].squared_near));
+        seen.farthest = std::max(seen.farthest, seen.of_point.back().first);
+    }
+    return seen;
+}
+
+void SlidingQuads::Gaps::keep(const Surroundings& around, std::size_t f, const Look& seen) {
+    View& view = views_[f];
+    for (std::size_t i = 0; i < around.quads.size(); ++i) {
+        view.of_quad[at(around.quads[i])] = std::sqrt(seen.of_quad[i]);
+        view.points_of[at(around.quads[i])].clear();
+    }
+    for (std::size_t i = 0; i < around.points[f].size(); ++i) {
+        const int x = around.points[f][i];
+        const auto [squared, q] = seen.of_point[i];
+        view.nearest[at(x)] = q;
+        view.points_of[at(q)].push_back(x);
+        view.of_point[at(x)] = std::sqrt(squared);
     }
 }
 
@@ -209,7 +256,7 @@ void SlidingQuads::Gaps::choose_sides() {
     }
 }
 
-void SlidingQuads::Gaps::look_at_all(std::size_t f, const Context& context) {
+void SlidingQuads::Gaps::look_at_all(std::size_t f, bool is_rough, const Context& context) {
     const Frame& frame = sliding_.frames_[f];
     View& view = views_[f];
     const Quads& Q = sliding_.quads_.Q;
@@ -222,7 +269,10 @@ void SlidingQuads::Gaps::look_at_all(std::size_t f, const Context& context) {
     int hint = -1;
     for (std::size_t x = 0; x < points_.size(); ++x) {
         if (x % 4096 == 0) context.check_cancelled();
-        const ClosestPoint closest = quads.find(points_[x].position(frame.input), hint);
+        const Vector3 point = points_[x].position(frame.input);
+        const ClosestPoint closest = is_rough
+                                         ? quads.find_unless_near(view.squared_near, point, hint)
+                                         : quads.find(point, hint);
         hint = closest.point.triangle;
         view.nearest.push_back(hint / 2);
         view.points_of[at(hint / 2)].push_back(static_cast<int>(x));
@@ -262,13 +312,12 @@ double SlidingQuads::Gaps::squared_distance(const Surroundings& around, std::siz
 
 /// Largest squared distance of points of a quad to the input: on the sides that are its own, on
 /// the shorter diagonal and inside the two triangles; on more of them where one is not near.
-/// What is near counts as `near_share`.
+/// What is near counts as if it just were.
 double SlidingQuads::Gaps::squared_distance_of(int quad, std::size_t f) const {
     const Frame& frame = sliding_.frames_[f];
     const QuadCorners p = sliding_.corners_in(frame, quad);
     const std::size_t k = end_of_cut(p);
-    const double near_distance = near_share * frame.mean_edge;
-    double farthest = square(near_distance);
+    double farthest = views_[f].squared_near;
     const auto ask = [&](const Vector3& point, int hint) {
         const ClosestPoint found = frame.surface->find_unless_near(farthest, point, hint);
         const bool is_beyond = found.squared_distance > farthest;

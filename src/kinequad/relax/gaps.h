@@ -9,13 +9,16 @@
 namespace kinequad {
 
 /// The distances between quads and input in all frames, kept up to date while vertices move. In
-/// every frame the unit is `limit` mean lengths of the quads' edges there.
+/// every frame the unit is the limit of the options.
 class SlidingQuads::Gaps {
 public:
-    Gaps(const SlidingQuads& quads, double limit, const Context& context);
+    Gaps(const SlidingQuads& quads, const GapOptions& options, const Context& context);
 
     /// The distance at every quad (q), at most over the frames, in units.
     std::vector<double> at_quads() const;
+
+    /// The largest distance in a frame, mean over the frames, in units.
+    double mean_farthest() const;
 
     /// The quads farther away than `distance` units in some frame, the farthest first.
     std::vector<int> quads_beyond(double distance) const;
@@ -30,13 +33,14 @@ public:
     };
     Surroundings surroundings(const std::vector<int>& vertices) const;
 
-    /// What is to become less: the sum of the eighth powers of the largest distances in the first
-    /// `frames` of the frames of `around`, and what the shape of its quads costs in all of them.
-    /// Does not add up beyond `enough`.
-    double cost(const Surroundings& around, std::size_t frames, double enough) const;
+    /// What is to become less: the sum of the eighth powers of the largest distances, and what the
+    /// shape of the quads costs, but with distances in the first few frames of `around` alone:
+    /// enough to compare places. Does not add up beyond `enough`.
+    double rough_cost(const Surroundings& around, double enough) const;
 
-    /// Looks again at what has changed.
-    void update(const Surroundings& around);
+    /// Looks again at what has changed. Where the cost over all frames is less than it was before
+    /// anything moved, keeps what it sees and returns true.
+    bool take_if_better(const Surroundings& around, const Context& context);
 
 private:
     /// A point of the input that is looked at, on the edge from vertex `a` to vertex `b`.
@@ -53,23 +57,33 @@ private:
     /// Distances in one frame, in units of the input.
     struct View {
         double unit = 1;
+        double squared_near = 0;                  ///< what is not farther counts as this
         std::vector<double> of_quad;              ///< q: from the quad to the input
         std::vector<double> of_point;             ///< x: from the point to the quads
         std::vector<int> nearest;                 ///< x: the quad it is nearest to
         std::vector<std::vector<int>> points_of;  ///< q: the points nearest to it
     };
 
-    double misfit(const Surroundings& around, std::size_t frames, double enough) const;
+    /// What is seen of surroundings in one frame, in squared units of the input.
+    struct Look {
+        std::vector<double> of_quad;                   ///< as its quads
+        std::vector<std::pair<double, int>> of_point;  ///< as its points: also the nearest quad
+        double farthest = 0;
+    };
+
+    Look look(const Surroundings& around, std::size_t f) const;
+    void keep(const Surroundings& around, std::size_t f, const Look& seen);
     double shape_cost(const Surroundings& around) const;
     void choose_points();
     void choose_sides();
-    void look_at_all(std::size_t f, const Context& context);
+    void look_at_all(std::size_t f, bool is_rough, const Context& context);
     std::pair<double, int> nearest_in(const std::vector<int>& quads, int x, std::size_t f,
                                       double enough) const;
     double squared_distance(const Surroundings& around, std::size_t f, double too_far) const;
     double squared_distance_of(int quad, std::size_t f) const;
 
     const SlidingQuads& sliding_;
+    double shape_weight_;
     std::vector<EdgePoint> points_;  ///< of the input
     std::vector<char> owns_side_;    ///< corner c: whether the side that begins there is looked at
     std::vector<View> views_;        ///< f

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "kinequad/core/index.h"
@@ -43,6 +44,23 @@ std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views, int
         }
     }
     return sampled;
+}
+
+/// The same for `options.settling_frames`, then, without weight, the rest of
+/// `options.watched_frames`.
+std::vector<SampledFrame> watched_frames(const std::vector<RelaxView>& views,
+                                         const RelaxOptions& options) {
+    std::vector<SampledFrame> frames = sample_frames(views, options.settling_frames, options);
+    for (const RelaxView& view : views) {
+        const int count = view.frames.frame_count();
+        std::vector<int> known = evenly_chosen_frames(count, options.settling_frames);
+        if (options.reference_frame) known.push_back(*options.reference_frame);
+        for (const int frame : evenly_chosen_frames(count, options.watched_frames)) {
+            if (std::find(known.begin(), known.end(), frame) != known.end()) continue;
+            frames.push_back({view.frames.read_frame(frame), 0});
+        }
+    }
+    return frames;
 }
 
 /// Opens folded quads; where the nearest vertices do not do it, ever more of them move.
@@ -137,36 +155,46 @@ void fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
     sliding.restore(best.quads);
 }
 
+/// Part of a stage whose progress is reported.
+struct Stretch {
+    std::string_view stage;
+    double begin = 0;
+    double end = 1;
+
+    void report(double share, const Context& context) const {
+        context.report_progress(stage, begin + share * (end - begin));
+    }
+};
+
 /// Brings quads and input together in all frames, and takes back what that and `fit_surface` have
 /// cost: vertices go on towards right angles for `rounds` passes, but for those of quads that are
-/// about to leave the surface, and gaps are closed again after every few. Returns the distances
-/// that `close_gaps` leaves.
-std::vector<double> settle(SlidingQuads& sliding, double limit, int rounds,
-                           const RelaxOptions& options, const Context& context) {
+/// about to leave the surface, and gaps are closed again after every few. Returns what these leave.
+GapsLeft settle(SlidingQuads& sliding, double limit, int rounds, const GapOptions& gaps,
+                const Stretch& stretch, const Context& context) {
     constexpr int passes_between = 8;
     constexpr double held_share = 0.7;
-    std::vector<double> distances =
-        sliding.close_gaps(options.gap_limit, options.drags_patches, context);
+    stretch.report(0, context);
+    GapsLeft left = sliding.close_gaps(gaps, context);
     for (int passes = 0; passes < rounds; ++passes) {
         if (passes % passes_between == 0) {
-            for (std::size_t q = 0; q < distances.size(); ++q) {
-                if (distances[q] > held_share) sliding.hold(static_cast<int>(q));
+            for (std::size_t q = 0; q < left.at_quads.size(); ++q) {
+                if (left.at_quads[q] > held_share) sliding.hold(static_cast<int>(q));
             }
         }
         sliding.relax_pass(SlidingQuads::Aim::right_angles, limit, context);
         if ((passes + 1) % passes_between == 0 || passes + 1 == rounds) {
-            distances = sliding.close_gaps(options.gap_limit, options.drags_patches, context);
+            left = sliding.close_gaps(gaps, context);
         }
+        stretch.report(static_cast<double>(passes + 1) / rounds, context);
     }
-    return distances;
+    return left;
 }
 
 /// Goes back to what quads were `early` at and around those that stay folded or far from the input
 /// in some frame, `distances` (q) in units of the limit, and tries from there: vertices that have
 /// slid into a crease together do not come out one by one.
 void start_again(SlidingQuads& sliding, const SlidingQuads::State& early,
-                 std::vector<double> distances, const RelaxOptions& options,
-                 const Context& context) {
+                 std::vector<double> distances, const GapOptions& gaps, const Context& context) {
     constexpr double far = 1;
     constexpr int reach = 1;
     const Fit before = judge(sliding, std::move(distances), 1);
@@ -180,8 +208,8 @@ void start_again(SlidingQuads& sliding, const SlidingQuads::State& early,
     sliding.restore(early, region);
     sliding.release();
     unfold(sliding, releasing_pass, context);
-    const Fit now =
-        judge(sliding, sliding.close_gaps(options.gap_limit, options.drags_patches, context), 1);
+    const GapsLeft left = sliding.close_gaps(gaps, context);
+    const Fit now = judge(sliding, left.at_quads, 1);
     keep_better_regions(sliding, before, now, 1);
 }
 
@@ -242,23 +270,67 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
     const double limit = options.distance_limit * sliding->mean_edge_length();
     const SlidingQuads::State early = slide(*sliding, limit, options.rounds, context);
     fit_surface(*sliding, limit, context);
-    context.report_progress("relaxation", fitted_share);
-    const auto bring_together = [&](int rounds) {
-        start_again(*sliding, early, settle(*sliding, limit, rounds, options, context), options,
-                    context);
+    const GapOptions gaps{options.gap_limit, false, options.drags_patches};
+    const auto bring_together = [&](int rounds, double begin, double end) {
+        const GapsLeft left =
+            settle(*sliding, limit, rounds, gaps, {"relaxation", begin, end}, context);
+        start_again(*sliding, early, left.at_quads, gaps, context);
     };
-    bring_together(options.rounds);
-    if (has_more_frames(views, options)) {
-        context.report_progress("relaxation", (1 + fitted_share) / 2);
+    const bool has_more = has_more_frames(views, options);
+    const double settled_share = has_more ? (1 + fitted_share) / 2 : 1;
+    bring_together(options.rounds, fitted_share, settled_share);
+    if (has_more) {
         // The few frames are let go before the many come.
         const QuadMesh settled = sliding->quads();
         sliding.reset();
         sliding.emplace(start(settled, options.settling_frames));
-        bring_together(options.settling_rounds);
+        bring_together(options.settling_rounds, settled_share, 1);
     }
     warn_of_folded(*sliding, context);
     context.report_progress("relaxation", 1);
     return sliding->quads();
+}
+
+QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxView>& views,
+                               const Topology& topology, const IntrinsicMetric& metric,
+                               const RelaxOptions& options, const Context& context) {
+    constexpr double firm_shape_weight = 6;
+    constexpr double tightening = 0.88;
+    constexpr double most_far_share = 0.006;
+    constexpr double weight_of_distance = 0.45;
+    SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
+                         watched_frames(views, options), static_cast<int>(views.size()));
+    sliding.let_slide(options.line_edges);
+    const double limit = options.distance_limit * sliding.mean_edge_length();
+    const auto settle_within = [&](double gap_limit, double shape_weight, double begin,
+                                   double end) {
+        return settle(sliding, limit, options.watched_rounds,
+                      {gap_limit, true, options.drags_patches, shape_weight},
+                      {"settling", begin, end}, context);
+    };
+    // Less is better. Angles go with the root of the cost.
+    const auto grade = [&](const GapsLeft& left, double gap_limit) {
+        return std::sqrt(sliding.shape_cost()) *
+               std::pow(gap_limit * left.mean_farthest, weight_of_distance);
+    };
+    // Shapes count in fewer frames than distances do, and have to hold their own.
+    const GapsLeft left =
+        settle_within(options.gap_limit, firm_shape_weight * sliding.frames_per_shaped(), 0, 0.5);
+    const auto far = std::count_if(left.at_quads.begin(), left.at_quads.end(),
+                                   [](double distance) { return distance > 1; });
+    context.write_log(LogLevel::debug,
+                      fmt::format("relaxation: {} quads are farther from the input than {} edges "
+                                  "in some frame",
+                                  far, options.gap_limit));
+    if (static_cast<double>(far) <= most_far_share * static_cast<double>(quads.Q.rows())) {
+        const double grade_before = grade(left, options.gap_limit);
+        const SlidingQuads::State before = sliding.state();
+        const double tight = tightening * options.gap_limit;
+        if (grade(settle_within(tight, GapOptions().shape_weight, 0.5, 1), tight) >= grade_before)
+            sliding.restore(before);
+    }
+    context.report_progress("settling", 1);
+    return sliding.quads();
 }
 
 }  // namespace kinequad

@@ -19,6 +19,10 @@ struct RelaxOptions {
     int settling_frames = 0;
     /// Passes over all vertices between these last gaps.
     int settling_rounds = 8;
+    /// Frames of each view that `settle_in_more_frames` looks at beside those whose shapes count,
+    /// and its passes over all vertices.
+    int watched_frames = 0;
+    int watched_rounds = 8;
     /// The reference is this frame, which is not looked at twice; empty where it is no frame.
     std::optional<int> reference_frame = 0;
     /// Passes over all vertices, of each kind.
@@ -57,5 +61,14 @@ struct RelaxView {
 QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
                      const Topology& topology, const IntrinsicMetric& metric,
                      const RelaxOptions& options, const Context& context);
+
+/// Closes gaps between relaxed quads and the input in up to `watched_frames` of each view, evenly
+/// chosen, so that no pose between those that `relax_quads` has seen leaves the input by more:
+/// shapes of quads count in `settling_frames` of them. Where nearly all gaps close, a lower limit
+/// is reached for, and kept if it is reached as well. Arguments, result and exceptions as there.
+/// docs/relaxation.md
+QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxView>& views,
+                               const Topology& topology, const IntrinsicMetric& metric,
+                               const RelaxOptions& options, const Context& context);
 
 }  // namespace kinequad

@@ -41,6 +41,7 @@ SlidingQuads::SlidingQuads(const QuadMesh& quads, const Topology& topology,
         }
     }
     for (Frame& frame : frames_) frame.mean_edge = mean_edge_length(frame);
+    while (shaped_frames_ < frames_.size() && frames_[shaped_frames_].weight > 0) ++shaped_frames_;
     for (int r = 0; r < reference_count; ++r) {
         Frame& frame = frames_[at(r)];
         references_.push_back({frame, frame.surface.emplace(frame.input, F)});
@@ -105,9 +106,19 @@ QuadCorners SlidingQuads::corners_in(const Frame& frame, int quad) const {
     return p;
 }
 
+double SlidingQuads::shape_cost() const {
+    double sum = 0;
+    for (const Frame& frame : shaped()) {
+        for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
+            sum += frame.weight * quad_cost(corners_in(frame, q), relaxing_barrier);
+        }
+    }
+    return sum;
+}
+
 double SlidingQuads::cost_around(int v, const FoldBarrier& barrier) const {
     double sum = 0;
-    for (const Frame& frame : frames_) {
+    for (const Frame& frame : shaped()) {
         for (const int c : corners_of(v)) {
             sum += frame.weight * quad_cost(corners_in(frame, c / 4), barrier);
         }
@@ -118,7 +129,7 @@ double SlidingQuads::cost_around(int v, const FoldBarrier& barrier) const {
 /// Sum over the frames of the squared lengths of the edges at a vertex, in mean lengths.
 double SlidingQuads::spacing_cost(int v) const {
     double sum = 0;
-    for (const Frame& frame : frames_) {
+    for (const Frame& frame : shaped()) {
         double squares = 0;
         for (const int c : corners_of(v)) {
             for (const int k : {1, 3}) {
@@ -175,7 +186,7 @@ Eigen::Matrix<double, 3, 2> SlidingQuads::embedding(int t, const Positions& X) c
 Vector2 SlidingQuads::move_to_squares(int v) const {
     Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
     Vector2 right = Vector2::Zero();
-    for (const Frame& frame : frames_) {
+    for (const Frame& frame : shaped()) {
         const auto tangents = embedding(quads_.vertex[at(v)].triangle, frame.input);
         const Vector3 normal = tangents.col(0).cross(tangents.col(1)).normalized();
         const Vector3 here = frame.vertices.row(v).transpose();
@@ -201,7 +212,7 @@ Vector2 SlidingQuads::move_to_right_angles(int v) const {
     constexpr double damping = 0.1;
     Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
     Vector2 right = Vector2::Zero();
-    for (const Frame& frame : frames_) {
+    for (const Frame& frame : shaped()) {
         const auto tangents = embedding(quads_.vertex[at(v)].triangle, frame.input);
         const double spacing = spacing_weight / (2 * frame.mean_edge * frame.mean_edge);
         double stiffness = 0;
@@ -276,10 +287,10 @@ double SlidingQuads::longest_edge(int v, const Frame& frame) const {
     return std::sqrt(square) / frame.mean_edge;
 }
 
-/// The same, at most over all frames.
+/// The same, at most over the frames with a weight.
 double SlidingQuads::longest_edge(int v) const {
     double longest = 0;
-    for (const Frame& frame : frames_) longest = std::max(longest, longest_edge(v, frame));
+    for (const Frame& frame : shaped()) longest = std::max(longest, longest_edge(v, frame));
     return longest;
 }
 

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "kinequad/core/context.h"
@@ -21,7 +22,7 @@ inline constexpr FoldBarrier relaxing_barrier;
 inline constexpr double spacing_weight = 0.1;
 
 /// Length beyond which neither passes nor `close_gaps` make the longest edge at a vertex longer in
-/// any frame, in mean lengths.
+/// any frame with a weight, in mean lengths.
 inline constexpr double most_stretch = 3;
 
 /// Length below which no move makes the shortest edge at a vertex shorter in the first reference,
@@ -31,10 +32,35 @@ inline constexpr double least_edge_share = 0.1;
 /// Distances between quads and input below this are near, in mean lengths of the quads' edges.
 inline constexpr double near_share = 0.15;
 
-/// A frame of the input that is looked at, and how much it counts.
+/// The same where distances need not be known as well.
+inline constexpr double roughly_near_share = 0.25;
+
+/// A frame of the input that is looked at, and how much the shape of quads counts there: where it
+/// has no weight, their distances from the input do alone.
 struct SampledFrame {
     Positions input;  ///< n x 3
     double weight = 1;
+};
+
+/// How `close_gaps` goes about it.
+struct GapOptions {
+    /// Quads and input are brought together where they are farther apart than most of this, in mean
+    /// lengths of the quads' edges.
+    double limit = 0.45;
+    /// Whether distances below `roughly_near_share` are not told apart, nor which of several quads
+    /// as near as that is the nearest; takes half the time.
+    bool is_rough = false;
+    /// Whether patches move as one where no vertex alone brings the two closer.
+    bool drags_patches = false;
+    /// What the shape of quads, mean over the frames with a weight, counts beside the sum of the
+    /// eighth powers of the distances, in limits, over all frames.
+    double shape_weight = 3;
+};
+
+/// Distances between quads and input, in units of the limit that was asked for.
+struct GapsLeft {
+    std::vector<double> at_quads;  ///< q: at the quad, at most over all frames
+    double mean_farthest = 0;      ///< the largest in a frame, mean over all frames
 };
 
 /// A quad mesh whose vertices slide over the surface, watched in several frames at once. The first
@@ -43,7 +69,8 @@ struct SampledFrame {
 class SlidingQuads {
 public:
     /// `F` m x 3 triangles of the input; the first `reference_count` of `frames`, at least one, are
-    /// references. `topology`, `metric` and `F` have to outlive this.
+    /// references; frames without weight come last. `topology`, `metric` and `F` have to outlive
+    /// this.
     SlidingQuads(const QuadMesh& quads, const Topology& topology, const IntrinsicMetric& metric,
                  const Triangles& F, std::vector<SampledFrame> frames, int reference_count);
 
@@ -117,12 +144,19 @@ public:
     /// away.
     int hug_surface(double limit, int reach, const Context& context);
 
-    /// Brings quads and input together where they are farther apart than most of `limit`, in mean
-    /// lengths of the quads' edges, in any frame: vertices there search for places that are closer
-    /// in all frames and hardly cost angles; where that is not enough and `drags_patches`, those
-    /// around them go along. Sets free what is held. Returns how far apart the two are at every
-    /// quad (q) then, at most over all frames, in units of `limit`.
-    std::vector<double> close_gaps(double limit, bool drags_patches, const Context& context);
+    /// Brings quads and input together in all frames: vertices where the two are far apart search
+    /// for places that are closer in all frames and hardly cost angles; where that is not enough,
+    /// those around them may go along. Sets free what is held. Returns how far apart the two are
+    /// then.
+    GapsLeft close_gaps(const GapOptions& options, const Context& context);
+
+    /// The cost of all quads over the frames with a weight, without that of spacing.
+    double shape_cost() const;
+
+    /// Number of frames for each that has a weight.
+    double frames_per_shaped() const {
+        return static_cast<double>(frames_.size()) / static_cast<double>(shaped_frames_);
+    }
 
     /// Mean length of the quads' edges in the first reference, in units of the input.
     double mean_edge_length() const { return mean_edge_length(frames_[0]); }
@@ -168,6 +202,8 @@ private:
     std::vector<Far> input_farther_than(double distance, const Reference& reference,
                                         const Context& context) const;
 
+    /// The frames with a weight.
+    std::span<const Frame> shaped() const { return std::span(frames_).first(shaped_frames_); }
     Range corners_of(int v) const;
     int neighbour(int corner, int k) const;
     QuadCorners corners_in(const Frame& frame, int quad) const;
@@ -188,8 +224,8 @@ private:
     double watched_distance(int v) const;
     bool improve(int v, Aim aim, double distance_limit);
     bool search_around(int v, const Steps& steps, const std::function<double(double)>& cost);
-    bool close_gaps_at(int v, Gaps& gaps);
-    bool drag(int v, Gaps& gaps);
+    bool close_gaps_at(int v, Gaps& gaps, const Context& context);
+    bool drag(int v, Gaps& gaps, const Context& context);
     bool move_onto(int v, const SurfacePoint& goal);
     int nearest_in_all_frames(int x) const;
     int cover_extremities_in(const Reference& reference, double limit, const Context& context);
@@ -205,6 +241,7 @@ private:
     const IntrinsicMetric& metric_;
     const Triangles& F_;
     std::vector<Frame> frames_;
+    std::size_t shaped_frames_ = 0;  ///< number of `shaped` frames
     std::vector<Reference> references_;
     std::vector<int>
         corner_start_;  ///< corners of vertex v: corner_[corner_start_[v] .. corner_start_[v+1]]

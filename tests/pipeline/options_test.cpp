@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "kinequad/core/error.h"
@@ -71,6 +73,22 @@ TEST(Recipes, LeaveNothingEmptyAndKeepWhatIsGiven) {
             EXPECT_TRUE(recipe.alpha && recipe.symmetrisation && recipe.metric);
             EXPECT_EQ(recipe.singularity_cost, 0.3);
             EXPECT_EQ(recipe.vertices, 1234);
+        }
+    }
+}
+
+TEST(Recipes, NeverRepeatThemselves) {
+    for (const SymmetryMode mode : {SymmetryMode::none, SymmetryMode::field, SymmetryMode::exact}) {
+        for (const bool is_cost_given : {false, true}) {
+            Options options;
+            options.symmetry = mode;
+            if (is_cost_given) options.singularity_cost = 0.3;
+            std::set<std::tuple<Symmetrisation, double, double>> seen;
+            for (const Options& recipe : recipes(options)) {
+                EXPECT_TRUE(
+                    seen.insert({*recipe.symmetrisation, *recipe.alpha, *recipe.singularity_cost})
+                        .second);
+            }
         }
     }
 }

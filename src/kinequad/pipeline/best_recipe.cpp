@@ -84,7 +84,7 @@ void put_recipe(SolvedRecipe recipe, Result& result) {
 
 std::string name_of(const Options& recipe) {
     return fmt::format(
-        "alpha {}{}", *recipe.alpha,
+        "alpha {}, singularities at {}{}", *recipe.alpha, *recipe.singularity_cost,
         recipe.symmetrisation == Symmetrisation::orbits ? " and orbits averaged" : "");
 }
 
@@ -192,7 +192,7 @@ struct Grade {
 Grade grade_of(const QuadMesh& quads, const FrameSource& frames, const Positions& reference,
                double edge_length, const std::string& name, const Context& context) {
     constexpr int most_frames = 24;
-    constexpr double weight_of_distance = 0.1;
+    constexpr double weight_of_distance = 0.2;
     constexpr double least_distance = 0.05;  // closer ones are all alike
     MeasureOptions options;
     options.frame_step = (frames.frame_count() + most_frames - 1) / most_frames;
@@ -265,8 +265,10 @@ QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& referenc
     if (!best) std::rethrow_exception(failure);
     for (const std::string& line : kept.warnings) context.write_log(LogLevel::warning, line);
     put_recipe(std::move(candidates[*best].recipe), result);
-    const bool is_last = result.options.alpha == recipes.back().alpha &&
-                         result.options.symmetrisation == recipes.back().symmetrisation;
+    const Options& last = recipes.back();
+    const bool is_last = result.options.alpha == last.alpha &&
+                         result.options.symmetrisation == last.symmetrisation &&
+                         result.options.singularity_cost == last.singularity_cost;
     if (!is_last) {
         // Whoever watches the stages sees those that count last. The time since is relaxation's.
         for (const char* stage : {"relaxation", "field", "map", "extraction"}) finish_stage(stage);

@@ -2,11 +2,44 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kinequad/core/error.h"
 
 namespace kinequad {
+namespace {
+
+/// What a recipe says of the cross field.
+struct FieldRecipe {
+    Symmetrisation symmetrisation;
+    double alpha;
+    double singularity_cost;
+};
+
+/// The recipes for `options` if these leave all to them. What serves both sides at once is a matter
+/// of how differently they move.
+std::vector<FieldRecipe> known_recipes(const Options& options) {
+    using enum Symmetrisation;
+    const bool is_paper = options.field == CrossFieldMethod::paper;
+    if (options.symmetry == SymmetryMode::none || is_paper) {
+        const bool is_half = options.symmetry == SymmetryMode::exact;
+        return {{options.symmetrisation.value_or(is_paper && !is_half ? orbits : term),
+                 default_alpha(options.field), is_half ? 0.1 : 0.08}};
+    }
+    if (options.symmetry == SymmetryMode::field) {
+        return {{term, 0.05, 0.08},   {term, 0.1, 0.08},  {term, 0.35, 0.08}, {term, 0.05, 0.18},
+                {orbits, 0.4, 0.2}, {orbits, 0.5, 0.2}, {orbits, 0.45, 0.12}};
+    }
+    return {{term, 0.02, 0.1},
+            {term, 0.35, 0.1},
+            {term, 0.5, 0.1},
+            {orbits, 0.1, 0.1},
+            {orbits, 0.35, 0.1}};
+}
+
+}  // namespace
 
 Options resolve_options(Options options, int frame_count, bool has_rest_shape, bool has_landmarks) {
     const auto check = [](bool condition, const std::string& message) {
@@ -56,35 +89,19 @@ Options resolve_options(Options options, int frame_count, bool has_rest_shape, b
 }
 
 std::vector<Options> list_recipes(const Options& options) {
-    const bool is_paper = options.field == CrossFieldMethod::paper;
-    const bool is_whole = options.symmetry == SymmetryMode::field;
-    const bool is_half = options.symmetry == SymmetryMode::exact;
-    std::vector<Symmetrisation> symmetrisations = {options.symmetrisation.value_or(
-        is_paper && !is_half ? Symmetrisation::orbits : Symmetrisation::term)};
-    if ((is_whole || is_half) && !is_paper && !options.symmetrisation) {
-        symmetrisations.push_back(Symmetrisation::orbits);
-    }
     std::vector<Options> recipes;
-    for (const Symmetrisation symmetrisation : symmetrisations) {
-        const bool is_averaged = symmetrisation == Symmetrisation::orbits;
-        std::vector<double> alphas = {default_alpha(options.field)};
-        // What serves both sides at once is a matter of how differently they move.
-        if (!is_paper && options.symmetry != SymmetryMode::none) {
-            if (is_whole)
-                alphas = is_averaged ? std::vector{0.4, 0.5} : std::vector{0.05, 0.1, 0.35};
-            if (is_half) {
-                alphas = is_averaged ? std::vector{0.1, 0.35} : std::vector{0.02, 0.35, 0.5};
-            }
-        }
-        if (options.alpha) alphas = {*options.alpha};
-        const double cost = is_half ? 0.1 : is_whole && is_averaged ? 0.2 : 0.08;
-        for (const double alpha : alphas) {
-            Options recipe = options;
-            recipe.symmetrisation = symmetrisation;
-            recipe.alpha = alpha;
-            recipe.singularity_cost = options.singularity_cost.value_or(cost);
-            recipes.push_back(recipe);
-        }
+    for (const FieldRecipe& known : known_recipes(options)) {
+        if (known.symmetrisation != options.symmetrisation.value_or(known.symmetrisation)) continue;
+        Options recipe = options;
+        recipe.symmetrisation = known.symmetrisation;
+        recipe.alpha = options.alpha.value_or(known.alpha);
+        recipe.singularity_cost = options.singularity_cost.value_or(known.singularity_cost);
+        // What is given may leave no difference; with an alpha there is one recipe for each way.
+        const bool is_listed = std::any_of(recipes.begin(), recipes.end(), [&](const Options& r) {
+            return r.symmetrisation == recipe.symmetrisation && r.alpha == recipe.alpha &&
+                   (options.alpha || r.singularity_cost == recipe.singularity_cost);
+        });
+        if (!is_listed) recipes.push_back(std::move(recipe));
     }
     return recipes;
 }

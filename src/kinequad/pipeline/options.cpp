@@ -29,7 +29,7 @@ std::vector<FieldRecipe> known_recipes(const Options& options) {
                  default_alpha(options.field), is_half ? 0.1 : 0.08}};
     }
     if (options.symmetry == SymmetryMode::field) {
-        return {{term, 0.05, 0.08},   {term, 0.1, 0.08},  {term, 0.35, 0.08}, {term, 0.05, 0.18},
+        return {{term, 0.05, 0.08}, {term, 0.1, 0.08},  {term, 0.35, 0.08},
                 {orbits, 0.4, 0.2}, {orbits, 0.5, 0.2}, {orbits, 0.45, 0.12}};
     }
     return {{term, 0.02, 0.1},

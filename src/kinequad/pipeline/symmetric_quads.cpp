@@ -270,6 +270,7 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     // The two ways to symmetry come out about as good as each other before relaxation.
     QuadMesh quads = finish_best_recipe(frames, reference, views, result, {solve, finish, 2},
                                         context, finish_stage);
+    // The paper's method goes without.
     if (result.options.field == CrossFieldMethod::paper) return quads;
     const RefinementSearch search(split.mesh);
     for (SurfacePoint& point : quads.vertex) point = search.find(point);

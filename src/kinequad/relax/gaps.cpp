@@ -33,7 +33,7 @@ double squared_distance_to_quad(const Vector3& point, const QuadCorners& p) {
 
 SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
                          const Context& context)
-    : sliding_(quads), shape_weight_(options.shape_weight) {
+    : sliding_(quads), shape_weight_(options.shape_weight), is_dense_(options.is_rough) {
     choose_points();
     choose_sides();
     views_.resize(sliding_.frames_.size());
@@ -42,8 +42,13 @@ SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
         views_[f].unit = options.limit * frame.mean_edge;
         views_[f].squared_near =
             square((options.is_rough ? roughly_near_share : near_share) * frame.mean_edge);
-        look_at_all(f, options.is_rough, context);
+        look_at_quads(f, context);
+        look_at_points(f, options.is_rough, context);
     });
+    if (!options.is_rough) return;
+    choose_more_points();
+    parallel_for(views_.size(), 1, context,
+                 [&](std::size_t f, std::size_t) { look_at_points(f, options.is_rough, context); });
 }
 
 std::vector<double> SlidingQuads::Gaps::at_quads() const {
@@ -220,15 +225,37 @@ void SlidingQuads::Gaps::keep(const Surroundings& around, std::size_t f, const L
 /// All vertices, and points between the ends of edges that are long for the quads.
 void SlidingQuads::Gaps::choose_points() {
     constexpr double spacing = 0.7;
-    constexpr double most_parts = 8;
     const Topology& topology = sliding_.topology_;
     for (int v = 0; v < topology.vertex_count; ++v) {
         if (topology.vertex_half_edge[at(v)] >= 0) points_.push_back({v, v, 0});
     }
+    choose_points_on_edges(spacing, std::vector<char>(at(topology.vertex_count), 1));
+}
+
+/// Points closer to one another on edges with an end that is not near in some frame: there the
+/// middle of an edge may be the farthest.
+void SlidingQuads::Gaps::choose_more_points() {
+    constexpr double spacing = 0.35;
+    std::vector<char> is_far(at(sliding_.topology_.vertex_count), 0);
+    for (std::size_t x = 0; x < points_.size() && points_[x].a == points_[x].b; ++x) {
+        is_far[at(points_[x].a)] = std::any_of(views_.begin(), views_.end(), [&](const View& view) {
+            return square(view.of_point[x]) > view.squared_near;
+        });
+    }
+    choose_points_on_edges(spacing, is_far);
+}
+
+/// Points that part edges with an end in `is_wanted` (v) into pieces of at most `spacing` mean
+/// lengths of the quads' edges in all frames.
+void SlidingQuads::Gaps::choose_points_on_edges(double spacing,
+                                                const std::vector<char>& is_wanted) {
+    constexpr double most_parts = 8;
+    const Topology& topology = sliding_.topology_;
     for (int h = 0; h < 3 * topology.triangle_count; ++h) {
         if (topology.twin[at(h)] > h) continue;
         const int a = sliding_.F_(h / 3, h % 3);
         const int b = sliding_.F_(h / 3, (h + 1) % 3);
+        if (!is_wanted[at(a)] && !is_wanted[at(b)]) continue;
         double length = 0;
         for (const Frame& frame : sliding_.frames_) {
             const double here = (frame.input.row(a) - frame.input.row(b)).norm();
@@ -256,18 +283,23 @@ void SlidingQuads::Gaps::choose_sides() {
     }
 }
 
-void SlidingQuads::Gaps::look_at_all(std::size_t f, bool is_rough, const Context& context) {
-    const Frame& frame = sliding_.frames_[f];
+void SlidingQuads::Gaps::look_at_quads(std::size_t f, const Context& context) {
     View& view = views_[f];
-    const Quads& Q = sliding_.quads_.Q;
-    view.points_of.resize(at(static_cast<int>(Q.rows())));
-    for (int q = 0; q < static_cast<int>(Q.rows()); ++q) {
+    const int quads = static_cast<int>(sliding_.quads_.Q.rows());
+    view.points_of.resize(at(quads));
+    for (int q = 0; q < quads; ++q) {
         if (q % 4096 == 0) context.check_cancelled();
         view.of_quad.push_back(std::sqrt(squared_distance_of(q, f)));
     }
-    const ClosestPoints quads(frame.vertices, cut_quads(Q, frame.vertices));
+}
+
+/// Looks at the points that have not been looked at in frame `f`.
+void SlidingQuads::Gaps::look_at_points(std::size_t f, bool is_rough, const Context& context) {
+    const Frame& frame = sliding_.frames_[f];
+    View& view = views_[f];
+    const ClosestPoints quads(frame.vertices, cut_quads(sliding_.quads_.Q, frame.vertices));
     int hint = -1;
-    for (std::size_t x = 0; x < points_.size(); ++x) {
+    for (std::size_t x = view.of_point.size(); x < points_.size(); ++x) {
         if (x % 4096 == 0) context.check_cancelled();
         const Vector3 point = points_[x].position(frame.input);
         const ClosestPoint closest = is_rough
@@ -348,6 +380,14 @@ double SlidingQuads::Gaps::squared_distance_of(int quad, std::size_t f) const {
     const bool is_second_far = ask((p[k] + p[k + 2] + p[(k + 3) % 4]) / 3, at_middle(4));
     if (is_line_far || is_first_far || is_second_far) {
         ask_on_lines({0.125, 0.375, 0.625, 0.875});
+        if (is_dense_) {
+            for (const auto& [a, b, c] : {std::array{k, k + 1, k + 2}, {k, k + 2, (k + 3) % 4}}) {
+                for (const auto& [one, two, three] :
+                     {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
+                    ask((2 * p[one] + p[two] + p[three]) / 4, at_middle(4));
+                }
+            }
+        }
     }
     return farthest;
 }

@@ -75,8 +75,11 @@ private:
     void keep(const Surroundings& around, std::size_t f, const Look& seen);
     double shape_cost(const Surroundings& around) const;
     void choose_points();
+    void choose_more_points();
+    void choose_points_on_edges(double spacing, const std::vector<char>& is_wanted);
     void choose_sides();
-    void look_at_all(std::size_t f, bool is_rough, const Context& context);
+    void look_at_quads(std::size_t f, const Context& context);
+    void look_at_points(std::size_t f, bool is_rough, const Context& context);
     std::pair<double, int> nearest_in(const std::vector<int>& quads, int x, std::size_t f,
                                       double enough) const;
     double squared_distance(const Surroundings& around, std::size_t f, double too_far) const;
@@ -84,6 +87,7 @@ private:
 
     const SlidingQuads& sliding_;
     double shape_weight_;
+    bool is_dense_;                  ///< whether more points are looked at where some are not near
     std::vector<EdgePoint> points_;  ///< of the input
     std::vector<char> owns_side_;    ///< corner c: whether the side that begins there is looked at
     std::vector<View> views_;        ///< f

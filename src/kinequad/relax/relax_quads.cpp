@@ -295,39 +295,44 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
                                const Topology& topology, const IntrinsicMetric& metric,
                                const RelaxOptions& options, const Context& context) {
     constexpr double firm_shape_weight = 6;
+    constexpr int most_tightenings = 2;
     constexpr double tightening = 0.88;
     constexpr double most_far_share = 0.006;
-    constexpr double weight_of_distance = 0.45;
+    constexpr double weight_of_distance = 0.5;
     SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
                          watched_frames(views, options), static_cast<int>(views.size()));
     sliding.let_slide(options.line_edges);
     const double limit = options.distance_limit * sliding.mean_edge_length();
-    const auto settle_within = [&](double gap_limit, double shape_weight, double begin,
-                                   double end) {
+    constexpr double share = 1.0 / (1 + most_tightenings);
+    const auto settle_within = [&](double gap_limit, double shape_weight, int i) {
         return settle(sliding, limit, options.watched_rounds,
                       {gap_limit, true, options.drags_patches, shape_weight},
-                      {"settling", begin, end}, context);
+                      {"settling", i * share, (i + 1) * share}, context);
+    };
+    const auto count_far = [](const GapsLeft& left) {
+        return static_cast<double>(std::count_if(left.at_quads.begin(), left.at_quads.end(),
+                                                 [](double distance) { return distance > 1; }));
     };
     // Less is better. Angles go with the root of the cost.
     const auto grade = [&](const GapsLeft& left, double gap_limit) {
         return std::sqrt(sliding.shape_cost()) *
                std::pow(gap_limit * left.mean_farthest, weight_of_distance);
     };
+    const double most_far = most_far_share * static_cast<double>(quads.Q.rows());
+    double gap_limit = options.gap_limit;
     // Shapes count in fewer frames than distances do, and have to hold their own.
-    const GapsLeft left =
-        settle_within(options.gap_limit, firm_shape_weight * sliding.frames_per_shaped(), 0, 0.5);
-    const auto far = std::count_if(left.at_quads.begin(), left.at_quads.end(),
-                                   [](double distance) { return distance > 1; });
-    context.write_log(LogLevel::debug,
-                      fmt::format("relaxation: {} quads are farther from the input than {} edges "
-                                  "in some frame",
-                                  far, options.gap_limit));
-    if (static_cast<double>(far) <= most_far_share * static_cast<double>(quads.Q.rows())) {
-        const double grade_before = grade(left, options.gap_limit);
+    GapsLeft left = settle_within(gap_limit, firm_shape_weight * sliding.frames_per_shaped(), 0);
+    double least = grade(left, gap_limit);
+    for (int i = 1; i <= most_tightenings && count_far(left) <= most_far; ++i) {
         const SlidingQuads::State before = sliding.state();
-        const double tight = tightening * options.gap_limit;
-        if (grade(settle_within(tight, GapOptions().shape_weight, 0.5, 1), tight) >= grade_before)
+        gap_limit *= tightening;
+        left = settle_within(gap_limit, GapOptions().shape_weight, i);
+        const double now = grade(left, gap_limit);
+        if (now >= least) {
             sliding.restore(before);
+            break;
+        }
+        least = now;
     }
     context.report_progress("settling", 1);
     return sliding.quads();

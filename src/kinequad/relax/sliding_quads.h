@@ -33,7 +33,7 @@ inline constexpr double least_edge_share = 0.1;
 inline constexpr double near_share = 0.15;
 
 /// The same where distances need not be known as well.
-inline constexpr double roughly_near_share = 0.25;
+inline constexpr double roughly_near_share = 0.2;
 
 /// A frame of the input that is looked at, and how much the shape of quads counts there: where it
 /// has no weight, their distances from the input do alone.

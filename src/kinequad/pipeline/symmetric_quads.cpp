@@ -268,7 +268,7 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
         return quads;
     };
     // The two ways to symmetry come out about as good as each other before relaxation.
-    QuadMesh quads = finish_best_recipe(frames, reference, views, result, {solve, finish, 2},
+    QuadMesh quads = finish_best_recipe(frames, reference, views, result, {solve, finish, 3},
                                         context, finish_stage);
     // The paper's method goes without.
     if (result.options.field == CrossFieldMethod::paper) return quads;

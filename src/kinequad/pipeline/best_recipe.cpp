@@ -192,7 +192,7 @@ struct Grade {
 Grade grade_of(const QuadMesh& quads, const FrameSource& frames, const Positions& reference,
                double edge_length, const std::string& name, const Context& context) {
     constexpr int most_frames = 24;
-    constexpr double weight_of_distance = 0.2;
+    constexpr double weight_of_distance = 0.1;
     constexpr double least_distance = 0.05;  // closer ones are all alike
     MeasureOptions options;
     options.frame_step = (frames.frame_count() + most_frames - 1) / most_frames;

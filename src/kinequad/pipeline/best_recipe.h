@@ -37,7 +37,7 @@ struct RecipeSteps {
 /// most promising ones: those whose quads have the best angles over some frames of the `views`, a
 /// singularity weighing as much as 0.2 % of them. Keeps in `result` the one that is best once it is
 /// relaxed: fewest folded quads in the pose `reference` (n x 3) of `frames`, the surface of the
-/// run, then angles and, a fifth as much, the Hausdorff distance. Where they are farther from the
+/// run, then angles and, a tenth as much, the Hausdorff distance. Where they are farther from the
 /// input than usual, the next ones are finished, four at most. Recipes that miss the wanted number
 /// of vertices stand behind the others, and those that fail are left out, unless all do. Returns
 /// the finished quads. Throws what the `steps` throw. docs/pipeline.md

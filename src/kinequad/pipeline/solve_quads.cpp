@@ -200,12 +200,11 @@ RelaxOptions relax_options(const Options& run, int vertex_count) {
     options.watched_frames = frames_in_bounds;
     options.watched_rounds = std::max(1, run.relax_rounds * 3 / 4);
     const bool is_mirrored = run.symmetry == SymmetryMode::exact;
-    const bool is_ours = run.field == CrossFieldMethod::convex;
-    options.rounds = run.relax_rounds * (is_mirrored ? 9 : is_ours ? 12 : 8) / 4;
-    options.settling_rounds = run.relax_rounds * (is_mirrored ? 8 : is_ours ? 9 : 6) / 4;
+    options.rounds = run.relax_rounds * (is_mirrored ? 9 : 8) / 4;
+    options.settling_rounds = run.relax_rounds * (is_mirrored ? 8 : 6) / 4;
     options.gap_limit = is_mirrored ? 0.46 : 0.43;
     // Mirrored quads gain nothing by it. docs/relaxation.md
-    options.drags_patches = !is_mirrored && is_ours;
+    options.drags_patches = !is_mirrored && run.field == CrossFieldMethod::convex;
     return options;
 }
 

@@ -262,21 +262,29 @@ TEST(RelaxQuads, CoversATipAndLeavesTheRestSquare) {
     }
 }
 
-TEST(RelaxQuads, SettlesInFramesBetweenTheSampledOnes) {
+/// How far the input is in the end, in a frame that alone of twelve shows a spike, from quads that
+/// `relax` has slid.
+double farthest_from_spike(decltype(relax_quads)& relax, const RelaxOptions& options) {
+    constexpr std::size_t spiked_frame = 7;
     int tip = -1;
     const Grid grid = spiked(&tip);
     Positions flattened = grid.mesh.V;
     flattened(tip, 2) = 0;
     std::vector<Positions> frames(12, flattened);
-    frames[7] = grid.mesh.V;
+    frames[spiked_frame] = grid.mesh.V;
     const MemorySequence sequence(grid.mesh.F, frames);
-    const auto farthest = [&](int settling_frames) {
-        Grid after = grid;
-        after.quads = relax_quads(grid.quads, {{sequence, flattened}}, grid.topology, grid.metric,
-                                  {.sampled_frames = 3, .settling_frames = settling_frames}, {});
-        grid.expect_kept(after.quads);
-        EXPECT_GT(grid.least_jacobian(after.quads, flattened), 0.1);
-        return after.farthest();
+    Grid after = grid;
+    after.quads =
+        relax(grid.quads, {{sequence, flattened}}, grid.topology, grid.metric, options, {});
+    grid.expect_kept(after.quads);
+    EXPECT_GT(grid.least_jacobian(after.quads, flattened), 0.1);
+    return after.farthest();
+}
+
+TEST(RelaxQuads, SettlesInFramesBetweenTheSampledOnes) {
+    const auto farthest = [](int settling_frames) {
+        return farthest_from_spike(relax_quads,
+                                   {.sampled_frames = 3, .settling_frames = settling_frames});
     };
     // Of twelve frames three are 0, 4 and 8; four would be 0, 3, 6 and 9.
     for (const int too_few : {0, 3, 4}) EXPECT_GT(farthest(too_few), 0.6 / 6);
@@ -284,21 +292,9 @@ TEST(RelaxQuads, SettlesInFramesBetweenTheSampledOnes) {
 }
 
 TEST(SettleInMoreFrames, ClosesAGapThatOnlyOneOfThemShows) {
-    int tip = -1;
-    const Grid grid = spiked(&tip);
-    Positions flattened = grid.mesh.V;
-    flattened(tip, 2) = 0;
-    std::vector<Positions> frames(12, flattened);
-    frames[7] = grid.mesh.V;
-    const MemorySequence sequence(grid.mesh.F, frames);
-    const auto farthest = [&](int watched_frames) {
-        Grid after = grid;
-        after.quads =
-            settle_in_more_frames(grid.quads, {{sequence, flattened}}, grid.topology, grid.metric,
-                                  {.settling_frames = 3, .watched_frames = watched_frames}, {});
-        grid.expect_kept(after.quads);
-        EXPECT_GT(grid.least_jacobian(after.quads, flattened), 0.1);
-        return after.farthest();
+    const auto farthest = [](int watched_frames) {
+        return farthest_from_spike(settle_in_more_frames,
+                                   {.settling_frames = 3, .watched_frames = watched_frames});
     };
     for (const int too_few : {0, 3, 4}) EXPECT_GT(farthest(too_few), 0.6 / 6);
     EXPECT_LT(farthest(12), 0.5 / 6);

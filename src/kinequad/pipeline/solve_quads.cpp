@@ -198,7 +198,7 @@ RelaxOptions relax_options(const Options& run, int vertex_count) {
     const int frames_in_bounds = most_positions / std::max(1, vertex_count);
     options.settling_frames = std::min(most_frames, frames_in_bounds);
     options.watched_frames = frames_in_bounds;
-    options.watched_rounds = std::max(1, run.relax_rounds * 3 / 4);
+    options.watched_rounds = 3 * run.relax_rounds;
     const bool is_mirrored = run.symmetry == SymmetryMode::exact;
     options.rounds = run.relax_rounds * (is_mirrored ? 9 : 8) / 4;
     options.settling_rounds = run.relax_rounds * (is_mirrored ? 8 : 6) / 4;

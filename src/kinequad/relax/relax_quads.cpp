@@ -25,9 +25,12 @@ constexpr double fitted_share = 0.5;
 constexpr int most_unfolding_passes = 16;
 constexpr int most_fitting_rounds = 10;
 constexpr int most_rounds_in_vain = 4;
+/// What a reference counts more for every frame chosen beside it, until quads settle in all frames.
+constexpr double reference_share = 0.25;
 
-/// The references, then `most` frames of each view, evenly chosen, but for the reference.
-std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views, int most,
+/// The references, then `most` frames of each view, evenly chosen, but for the reference. These
+/// weigh 1, references `share` more for each of them but the first.
+std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views, int most, double share,
                                         const RelaxOptions& options) {
     std::vector<SampledFrame> sampled;
     sampled.reserve(views.size());
@@ -35,7 +38,8 @@ std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views, int
         return evenly_chosen_frames(view.frames.frame_count(), std::max(most, 1));
     };
     for (const RelaxView& view : views) {
-        sampled.push_back({view.reference, 0.25 * static_cast<double>(chosen(view).size()) + 0.75});
+        const double weight = share * static_cast<double>(chosen(view).size()) + 1 - share;
+        sampled.push_back({view.reference, weight});
     }
     for (const RelaxView& view : views) {
         for (const int frame : chosen(view)) {
@@ -46,11 +50,11 @@ std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views, int
     return sampled;
 }
 
-/// The same for `options.settling_frames`, then, without weight, the rest of
+/// `options.settling_frames`, references among them, then, without weight, the rest of
 /// `options.watched_frames`.
 std::vector<SampledFrame> watched_frames(const std::vector<RelaxView>& views,
                                          const RelaxOptions& options) {
-    std::vector<SampledFrame> frames = sample_frames(views, options.settling_frames, options);
+    std::vector<SampledFrame> frames = sample_frames(views, options.settling_frames, 0, options);
     for (const RelaxView& view : views) {
         const int count = view.frames.frame_count();
         std::vector<int> known = evenly_chosen_frames(count, options.settling_frames);
@@ -166,26 +170,31 @@ struct Stretch {
     }
 };
 
+/// The passes over all vertices while quads settle.
+struct SettlingPasses {
+    int count = 0;
+    int between = 8;          ///< from one closing of gaps to the next
+    double held_share = 0.7;  ///< quads farther from the input, in units of the gaps, stay
+};
+
 /// Brings quads and input together in all frames, and takes back what that and `fit_surface` have
-/// cost: vertices go on towards right angles for `rounds` passes, but for those of quads that are
-/// about to leave the surface, and gaps are closed again after every few. Returns what these leave.
-GapsLeft settle(SlidingQuads& sliding, double limit, int rounds, const GapOptions& gaps,
-                const Stretch& stretch, const Context& context) {
-    constexpr int passes_between = 8;
-    constexpr double held_share = 0.7;
+/// cost: vertices go on towards right angles, but for those of quads that are about to leave the
+/// surface, and gaps are closed again after every few passes. Returns what these leave.
+GapsLeft settle(SlidingQuads& sliding, double limit, const SettlingPasses& passes,
+                const GapOptions& gaps, const Stretch& stretch, const Context& context) {
     stretch.report(0, context);
     GapsLeft left = sliding.close_gaps(gaps, context);
-    for (int passes = 0; passes < rounds; ++passes) {
-        if (passes % passes_between == 0) {
+    for (int pass = 0; pass < passes.count; ++pass) {
+        if (pass % passes.between == 0) {
             for (std::size_t q = 0; q < left.at_quads.size(); ++q) {
-                if (left.at_quads[q] > held_share) sliding.hold(static_cast<int>(q));
+                if (left.at_quads[q] > passes.held_share) sliding.hold(static_cast<int>(q));
             }
         }
         sliding.relax_pass(SlidingQuads::Aim::right_angles, limit, context);
-        if ((passes + 1) % passes_between == 0 || passes + 1 == rounds) {
+        if ((pass + 1) % passes.between == 0 || pass + 1 == passes.count) {
             left = sliding.close_gaps(gaps, context);
         }
-        stretch.report(static_cast<double>(passes + 1) / rounds, context);
+        stretch.report(static_cast<double>(pass + 1) / passes.count, context);
     }
     return left;
 }
@@ -262,7 +271,8 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
                      const RelaxOptions& options, const Context& context) {
     const auto start = [&](const QuadMesh& from, int frames) {
         SlidingQuads sliding(from, topology, metric, views.front().frames.triangles(),
-                             sample_frames(views, frames, options), static_cast<int>(views.size()));
+                             sample_frames(views, frames, reference_share, options),
+                             static_cast<int>(views.size()));
         sliding.let_slide(options.line_edges);
         return sliding;
     };
@@ -273,7 +283,7 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
     const GapOptions gaps{options.gap_limit, false, options.drags_patches};
     const auto bring_together = [&](int rounds, double begin, double end) {
         const GapsLeft left =
-            settle(*sliding, limit, rounds, gaps, {"relaxation", begin, end}, context);
+            settle(*sliding, limit, {rounds}, gaps, {"relaxation", begin, end}, context);
         start_again(*sliding, early, left.at_quads, gaps, context);
     };
     const bool has_more = has_more_frames(views, options);
@@ -294,39 +304,47 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
 QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxView>& views,
                                const Topology& topology, const IntrinsicMetric& metric,
                                const RelaxOptions& options, const Context& context) {
-    constexpr double firm_shape_weight = 6;
-    constexpr int most_tightenings = 2;
+    constexpr double shape_weight = 3;
+    constexpr double held_share = 0.85;
+    constexpr double settled_share = 0.7;
+    // Of what closes gaps once more at the end.
+    constexpr int most_closings = 2;
+    constexpr double closing_shape_weight = 1;
+    constexpr double few_far = 0.006;
+    constexpr double many_far = 0.015;
     constexpr double tightening = 0.88;
-    constexpr double most_far_share = 0.006;
-    constexpr double weight_of_distance = 0.5;
+    constexpr double weight_of_distance = 0.7;
     SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
                          watched_frames(views, options), static_cast<int>(views.size()));
     sliding.let_slide(options.line_edges);
     const double limit = options.distance_limit * sliding.mean_edge_length();
-    constexpr double share = 1.0 / (1 + most_tightenings);
-    const auto settle_within = [&](double gap_limit, double shape_weight, int i) {
-        return settle(sliding, limit, options.watched_rounds,
-                      {gap_limit, true, options.drags_patches, shape_weight},
-                      {"settling", i * share, (i + 1) * share}, context);
+    // Shapes count in fewer frames than distances do, and have to hold their own.
+    const auto gaps_within = [&](double gap_limit, double weight) {
+        return GapOptions{gap_limit, true, options.drags_patches,
+                          weight * sliding.frames_per_shaped()};
     };
-    const auto count_far = [](const GapsLeft& left) {
-        return static_cast<double>(std::count_if(left.at_quads.begin(), left.at_quads.end(),
-                                                 [](double distance) { return distance > 1; }));
+    const auto share_of_far = [&](const GapsLeft& left) {
+        const auto far = std::count_if(left.at_quads.begin(), left.at_quads.end(),
+                                       [](double distance) { return distance > 1; });
+        return static_cast<double>(far) / static_cast<double>(quads.Q.rows());
     };
     // Less is better. Angles go with the root of the cost.
     const auto grade = [&](const GapsLeft& left, double gap_limit) {
         return std::sqrt(sliding.shape_cost()) *
                std::pow(gap_limit * left.mean_farthest, weight_of_distance);
     };
-    const double most_far = most_far_share * static_cast<double>(quads.Q.rows());
     double gap_limit = options.gap_limit;
-    // Shapes count in fewer frames than distances do, and have to hold their own.
-    GapsLeft left = settle_within(gap_limit, firm_shape_weight * sliding.frames_per_shaped(), 0);
+    const int between = std::max(1, options.watched_rounds / 2);
+    GapsLeft left =
+        settle(sliding, limit, {options.watched_rounds, between, held_share},
+               gaps_within(gap_limit, shape_weight), {"settling", 0, settled_share}, context);
+    // What is left is worth more of the shapes, unless quads are too coarse for much of it. Where
+    // nearly nothing is, a lower limit is reached for.
     double least = grade(left, gap_limit);
-    for (int i = 1; i <= most_tightenings && count_far(left) <= most_far; ++i) {
+    for (int i = 0; i < most_closings && share_of_far(left) <= (i == 0 ? many_far : few_far); ++i) {
         const SlidingQuads::State before = sliding.state();
-        gap_limit *= tightening;
-        left = settle_within(gap_limit, GapOptions().shape_weight, i);
+        if (share_of_far(left) <= few_far) gap_limit *= tightening;
+        left = sliding.close_gaps(gaps_within(gap_limit, closing_shape_weight), context);
         const double now = grade(left, gap_limit);
         if (now >= least) {
             sliding.restore(before);

@@ -64,9 +64,9 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
 
 /// Closes gaps between relaxed quads and the input in up to `watched_frames` of each view, evenly
 /// chosen, so that no pose between those that `relax_quads` has seen leaves the input by more:
-/// shapes of quads count in `settling_frames` of them. Where nearly all gaps close, a lower limit
-/// is reached for, and kept if it is reached as well. Arguments, result and exceptions as there.
-/// docs/relaxation.md
+/// shapes of quads count in `settling_frames` of them, the references no more than the rest. Then
+/// distances count more, where nearly all gaps close with a lower limit, and what comes of it is
+/// kept if it is worth it. Arguments, result and exceptions as there. docs/relaxation.md
 QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxView>& views,
                                const Topology& topology, const IntrinsicMetric& metric,
                                const RelaxOptions& options, const Context& context);

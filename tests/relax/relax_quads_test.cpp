@@ -316,6 +316,31 @@ TEST(SettleInMoreFrames, CountsShapesInTheSettlingFramesAlone) {
     EXPECT_LT(grid.cost(quads, grid.mesh.V), 0.2 * grid.cost(grid.quads, grid.mesh.V));
 }
 
+TEST(SettleInMoreFrames, CountsTheReferenceNoMoreThanTheRest) {
+    // Two poses that want different quads: the ends of the grid stay straight.
+    const Grid grid(landscape(14, hill), 7, 0.3);
+    std::vector<Positions> frames(6, sheared(grid.mesh.V, 0.5));
+    for (const int f : {1, 3, 5}) {
+        frames[static_cast<std::size_t>(f)] = sheared(grid.mesh.V, -0.5);
+    }
+    const MemorySequence sequence(grid.mesh.F, frames);
+    const auto cost_of_first = [&](decltype(relax_quads)& relax, int reference) {
+        const QuadMesh quads = relax(grid.quads, {{sequence, sequence.read_frame(reference)}},
+                                     grid.topology, grid.metric,
+                                     {.sampled_frames = 6,
+                                      .settling_frames = 6,
+                                      .watched_frames = 6,
+                                      .watched_rounds = 40,
+                                      .reference_frame = reference,
+                                      .rounds = 40},
+                                     {});
+        return grid.cost(quads, frames[0]);
+    };
+    const double preferred = cost_of_first(settle_in_more_frames, 0);
+    EXPECT_NEAR(preferred, cost_of_first(settle_in_more_frames, 1), 0.01 * preferred);
+    EXPECT_LT(cost_of_first(relax_quads, 0), 0.95 * cost_of_first(relax_quads, 1));
+}
+
 TEST(RelaxQuads, LooksAtTheFirstFrameWhateverTheReference) {
     int tip = -1;
     const Grid grid = spiked(&tip);

@@ -170,39 +170,11 @@ struct Stretch {
     }
 };
 
-/// The passes over all vertices while quads settle.
-struct SettlingPasses {
-    int count = 0;
-    int between = 8;          ///< from one closing of gaps to the next
-    double held_share = 0.7;  ///< quads farther from the input, in units of the gaps, stay
-};
-
-/// Brings quads and input together in all frames, and takes back what that and `fit_surface` have
-/// cost: vertices go on towards right angles, but for those of quads that are about to leave the
-/// surface, and gaps are closed again after every few passes. Returns what these leave.
-GapsLeft settle(SlidingQuads& sliding, double limit, const SettlingPasses& passes,
-                const GapOptions& gaps, const Stretch& stretch, const Context& context) {
-    stretch.report(0, context);
-    GapsLeft left = sliding.close_gaps(gaps, context);
-    for (int pass = 0; pass < passes.count; ++pass) {
-        if (pass % passes.between == 0) {
-            for (std::size_t q = 0; q < left.at_quads.size(); ++q) {
-                if (left.at_quads[q] > passes.held_share) sliding.hold(static_cast<int>(q));
-            }
-        }
-        sliding.relax_pass(SlidingQuads::Aim::right_angles, limit, context);
-        if ((pass + 1) % passes.between == 0 || pass + 1 == passes.count) {
-            left = sliding.close_gaps(gaps, context);
-        }
-        stretch.report(static_cast<double>(pass + 1) / passes.count, context);
-    }
-    return left;
-}
-
 /// Goes back to what quads were `early` at and around those that stay folded or far from the input
 /// in some frame, `distances` (q) in units of the limit, and tries from there: vertices that have
-/// slid into a crease together do not come out one by one.
-void start_again(SlidingQuads& sliding, const SlidingQuads::State& early,
+/// slid into a crease together do not come out one by one. Returns whether there are any such
+/// quads.
+bool start_again(SlidingQuads& sliding, const SlidingQuads::State& early,
                  std::vector<double> distances, const GapOptions& gaps, const Context& context) {
     constexpr double far = 1;
     constexpr int reach = 1;
@@ -213,13 +185,49 @@ void start_again(SlidingQuads& sliding, const SlidingQuads::State& early,
         const std::vector<int> around = sliding.quads_around(static_cast<int>(q), reach);
         region.insert(region.end(), around.begin(), around.end());
     }
-    if (region.empty()) return;
+    if (region.empty()) return false;
     sliding.restore(early, region);
     sliding.release();
     unfold(sliding, releasing_pass, context);
     const GapsLeft left = sliding.close_gaps(gaps, context);
     const Fit now = judge(sliding, left.at_quads, 1);
     keep_better_regions(sliding, before, now, 1);
+    return true;
+}
+
+/// The passes over all vertices while quads settle.
+struct SettlingPasses {
+    int count = 0;
+    int between = 8;          ///< from one closing of gaps to the next
+    double held_share = 0.7;  ///< quads farther from the input, in units of the gaps, stay
+    bool takes_back = false;  ///< whether quads that end up farther than a unit go back
+};
+
+/// Brings quads and input together in all frames, and takes back what that and `fit_surface` have
+/// cost: vertices go on towards right angles, but for those of quads that are about to leave the
+/// surface, and gaps are closed again after every few passes. Returns what these leave.
+GapsLeft settle(SlidingQuads& sliding, double limit, const SettlingPasses& passes,
+                const GapOptions& gaps, const Stretch& stretch, const Context& context) {
+    stretch.report(0, context);
+    GapsLeft left = sliding.close_gaps(gaps, context);
+    SlidingQuads::State before = sliding.state();
+    for (int pass = 0; pass < passes.count; ++pass) {
+        if (pass % passes.between == 0) {
+            before = sliding.state();
+            for (std::size_t q = 0; q < left.at_quads.size(); ++q) {
+                if (left.at_quads[q] > passes.held_share) sliding.hold(static_cast<int>(q));
+            }
+        }
+        sliding.relax_pass(SlidingQuads::Aim::right_angles, limit, context);
+        if ((pass + 1) % passes.between == 0 || pass + 1 == passes.count) {
+            left = sliding.close_gaps(gaps, context);
+            if (passes.takes_back && start_again(sliding, before, left.at_quads, gaps, context)) {
+                left = sliding.close_gaps(gaps, context);
+            }
+        }
+        stretch.report(static_cast<double>(pass + 1) / passes.count, context);
+    }
+    return left;
 }
 
 /// Passes over all vertices, towards squares, then towards right angles, with tips covered every
@@ -310,10 +318,11 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     // Of what closes gaps once more at the end.
     constexpr int most_closings = 2;
     constexpr double closing_shape_weight = 1;
+    constexpr double least_shape_weight = 3;
     constexpr double few_far = 0.006;
     constexpr double many_far = 0.015;
     constexpr double tightening = 0.88;
-    constexpr double weight_of_distance = 0.7;
+    constexpr double weight_of_distance = 0.3;
     SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
                          watched_frames(views, options), static_cast<int>(views.size()));
     sliding.let_slide(options.line_edges);
@@ -321,7 +330,7 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     // Shapes count in fewer frames than distances do, and have to hold their own.
     const auto gaps_within = [&](double gap_limit, double weight) {
         return GapOptions{gap_limit, true, options.drags_patches,
-                          weight * sliding.frames_per_shaped()};
+                          std::max(weight * sliding.frames_per_shaped(), least_shape_weight)};
     };
     const auto share_of_far = [&](const GapsLeft& left) {
         const auto far = std::count_if(left.at_quads.begin(), left.at_quads.end(),
@@ -336,7 +345,7 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     double gap_limit = options.gap_limit;
     const int between = std::max(1, options.watched_rounds / 2);
     GapsLeft left =
-        settle(sliding, limit, {options.watched_rounds, between, held_share},
+        settle(sliding, limit, {options.watched_rounds, between, held_share, true},
                gaps_within(gap_limit, shape_weight), {"settling", 0, settled_share}, context);
     // What is left is worth more of the shapes, unless quads are too coarse for much of it. Where
     // nearly nothing is, a lower limit is reached for.

@@ -16,6 +16,17 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Quads with a distance beyond this, in units, are searched for the largest one where all frames
+/// count; that much, in mean lengths of edges, is not told apart there.
+constexpr double worth_a_closer_look = 0.8;
+constexpr double told_apart = 0.08;
+
+/// Between points on edges of the input, in mean lengths of the quads' edges; and how many of those
+/// that are close to one another there are at most, over all frames.
+constexpr double spacing = 0.7;
+constexpr double close_spacing = 0.35;
+constexpr std::size_t most_close_points = 2'000'000;
+
 /// Where places are compared, the frames with the largest distances are enough.
 constexpr std::size_t compared_frames = 3;
 
@@ -45,7 +56,7 @@ SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
         look_at_quads(f, context);
         look_at_points(f, options.is_rough, context);
     });
-    if (!options.is_rough) return;
+    if (!has_more_points_) return;
     choose_more_points();
     parallel_for(views_.size(), 1, context,
                  [&](std::size_t f, std::size_t) { look_at_points(f, options.is_rough, context); });
@@ -222,27 +233,34 @@ void SlidingQuads::Gaps::keep(const Surroundings& around, std::size_t f, const L
     }
 }
 
-/// All vertices, and points between the ends of edges that are long for the quads.
+/// All vertices, and points between the ends of edges that are long for the quads: closer to one
+/// another where distances count in all frames and there are not too many of them.
 void SlidingQuads::Gaps::choose_points() {
-    constexpr double spacing = 0.7;
     const Topology& topology = sliding_.topology_;
     for (int v = 0; v < topology.vertex_count; ++v) {
         if (topology.vertex_half_edge[at(v)] >= 0) points_.push_back({v, v, 0});
     }
-    choose_points_on_edges(spacing, std::vector<char>(at(topology.vertex_count), 1));
+    const std::vector<char> all(at(topology.vertex_count), 1);
+    const std::size_t vertices = points_.size();
+    if (is_dense_) {
+        choose_points_on_edges(close_spacing, all);
+        if (points_.size() * sliding_.frames_.size() <= most_close_points) return;
+        points_.resize(vertices);
+    }
+    choose_points_on_edges(spacing, all);
+    has_more_points_ = is_dense_;
 }
 
 /// Points closer to one another on edges with an end that is not near in some frame: there the
 /// middle of an edge may be the farthest.
 void SlidingQuads::Gaps::choose_more_points() {
-    constexpr double spacing = 0.35;
     std::vector<char> is_far(at(sliding_.topology_.vertex_count), 0);
     for (std::size_t x = 0; x < points_.size() && points_[x].a == points_[x].b; ++x) {
         is_far[at(points_[x].a)] = std::any_of(views_.begin(), views_.end(), [&](const View& view) {
             return square(view.of_point[x]) > view.squared_near;
         });
     }
-    choose_points_on_edges(spacing, is_far);
+    choose_points_on_edges(close_spacing, is_far);
 }
 
 /// Points that part edges with an end in `is_wanted` (v) into pieces of at most `spacing` mean
@@ -342,6 +360,32 @@ double SlidingQuads::Gaps::squared_distance(const Surroundings& around, std::siz
     return farthest;
 }
 
+/// Largest squared distance of points of a triangle to the input, or `known` where none is much
+/// farther than that. A point is no farther than another one and the way between the two.
+double SlidingQuads::Gaps::squared_distance_inside(const std::array<Vector3, 3>& corners,
+                                                   double known, const Frame& frame, int hint) {
+    const double tolerance = told_apart * frame.mean_edge;
+    const Vector3 middle = (corners[0] + corners[1] + corners[2]) / 3;
+    double radius = 0;
+    for (const Vector3& corner : corners) radius = std::max(radius, (corner - middle).norm());
+    const double enough = std::max(0.0, std::sqrt(known) + tolerance - radius);
+    const ClosestPoint found = frame.surface->find_unless_near(square(enough), middle, hint);
+    if (found.squared_distance <= square(enough)) return known;
+    double farthest = std::max(known, found.squared_distance);
+    if (radius <= tolerance) return farthest;
+    const std::array<Vector3, 3> halves = {(corners[1] + corners[2]) / 2,
+                                           (corners[2] + corners[0]) / 2,
+                                           (corners[0] + corners[1]) / 2};
+    for (const auto& part : {halves,
+                             std::array{corners[0], halves[2], halves[1]},
+                             {corners[1], halves[0], halves[2]},
+                             {corners[2], halves[1], halves[0]}}) {
+        farthest = std::max(farthest,
+                            squared_distance_inside(part, farthest, frame, found.point.triangle));
+    }
+    return farthest;
+}
+
 /// Largest squared distance of points of a quad to the input: on the sides that are its own, on
 /// the shorter diagonal and inside the two triangles; on more of them where one is not near.
 /// What is near counts as if it just were.
@@ -380,14 +424,12 @@ double SlidingQuads::Gaps::squared_distance_of(int quad, std::size_t f) const {
     const bool is_second_far = ask((p[k] + p[k + 2] + p[(k + 3) % 4]) / 3, at_middle(4));
     if (is_line_far || is_first_far || is_second_far) {
         ask_on_lines({0.125, 0.375, 0.625, 0.875});
-        if (is_dense_) {
-            for (const auto& [a, b, c] : {std::array{k, k + 1, k + 2}, {k, k + 2, (k + 3) % 4}}) {
-                for (const auto& [one, two, three] :
-                     {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
-                    ask((2 * p[one] + p[two] + p[three]) / 4, at_middle(4));
-                }
-            }
-        }
+    }
+    if (!is_dense_ || farthest <= square(worth_a_closer_look * views_[f].unit)) return farthest;
+    for (const auto& corners :
+         {std::array{p[k], p[k + 1], p[k + 2]}, {p[k], p[k + 2], p[(k + 3) % 4]}}) {
+        farthest =
+            std::max(farthest, squared_distance_inside(corners, farthest, frame, at_middle(4)));
     }
     return farthest;
 }

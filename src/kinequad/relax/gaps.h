@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -84,10 +85,13 @@ private:
                                       double enough) const;
     double squared_distance(const Surroundings& around, std::size_t f, double too_far) const;
     double squared_distance_of(int quad, std::size_t f) const;
+    static double squared_distance_inside(const std::array<Vector3, 3>& corners, double known,
+                                          const Frame& frame, int hint);
 
     const SlidingQuads& sliding_;
     double shape_weight_;
     bool is_dense_;                  ///< whether more points are looked at where some are not near
+    bool has_more_points_ = false;   ///< whether some points come once it is known what is far
     std::vector<EdgePoint> points_;  ///< of the input
     std::vector<char> owns_side_;    ///< corner c: whether the side that begins there is looked at
     std::vector<View> views_;        ///< f

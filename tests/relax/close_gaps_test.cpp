@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,49 @@ TEST(CloseGaps, LeavesQuadsAloneThatAreNear) {
     SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}, {sheared(grid.mesh.V, 0.5), 1}});
     sliding.close_gaps({0.45}, {});
     EXPECT_TRUE(sliding.regions_moved_since({grid.quads.vertex, {}}).empty());
+}
+
+/// The square without the triangles whose middle is closer than `radius` to `centre`.
+TriangleMesh with_hole(int n, const Vector3& centre, double radius) {
+    TriangleMesh mesh = landscape(n, flat);
+    Eigen::Index left = 0;
+    for (Eigen::Index t = 0; t < mesh.F.rows(); ++t) {
+        const Eigen::RowVector3d middle =
+            (mesh.V.row(mesh.F(t, 0)) + mesh.V.row(mesh.F(t, 1)) + mesh.V.row(mesh.F(t, 2))) / 3;
+        if ((middle.transpose() - centre).norm() >= radius) mesh.F.row(left++) = mesh.F.row(t);
+    }
+    mesh.F.conservativeResize(left, 3);
+    return mesh;
+}
+
+/// Wherever a quad leaves the input, that is found, whether or not a sample is there.
+TEST(CloseGaps, FindsTheFarthestPlaceInsideAQuadWhenRough) {
+    constexpr int samples = 50;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> place(0.36, 0.64);
+    std::uniform_real_distribution<double> size(0.25, 0.33);
+    for (int i = 0; i < 4; ++i) {
+        const Vector3 centre(place(random), place(random), 0);
+        // A large quad over the hole, and small ones, which make the unit short.
+        Grid grid(with_hole(24, centre, size(random)), 20, 0);
+        const int first = static_cast<int>(grid.quads.vertex.size());
+        for (const auto& [x, y] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}) {
+            grid.quads.vertex.push_back(grid.above(x, y));
+        }
+        const Quads small = grid.quads.Q.bottomRows(20);
+        grid.quads.Q.resize(21, 4);
+        grid.quads.Q << first, first + 1, first + 2, first + 3, small;
+        const ClosestPoints surface = grid.surface();
+        double farthest = 0;
+        for (int j = 0; j < samples * samples; ++j) {
+            const Vector3 point(double(j % samples) / samples, double(j / samples) / samples, 0);
+            farthest = std::max(farthest, std::sqrt(surface.find(point).squared_distance));
+        }
+        SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+        const double unit = sliding.mean_edge_length();
+        const double found = unit * sliding.close_gaps({1, true}, {}).at_quads[0];
+        EXPECT_NEAR(found, farthest, 0.08 * unit + 1.0 / samples) << i;
+    }
 }
 
 /// What is near is told apart less well, but what is far is as far.

@@ -368,9 +368,10 @@ double SlidingQuads::Gaps::squared_distance_inside(const std::array<Vector3, 3>&
     const Vector3 middle = (corners[0] + corners[1] + corners[2]) / 3;
     double radius = 0;
     for (const Vector3& corner : corners) radius = std::max(radius, (corner - middle).norm());
-    const double enough = std::max(0.0, std::sqrt(known) + tolerance - radius);
-    const ClosestPoint found = frame.surface->find_unless_near(square(enough), middle, hint);
-    if (found.squared_distance <= square(enough)) return known;
+    const double enough = std::sqrt(known) + tolerance - radius;
+    const double squared_enough = enough > 0 ? square(enough) : -1;
+    const ClosestPoint found = frame.surface->find_unless_near(squared_enough, middle, hint);
+    if (found.squared_distance <= squared_enough) return known;
     double farthest = std::max(known, found.squared_distance);
     if (radius <= tolerance) return farthest;
     const std::array<Vector3, 3> halves = {(corners[1] + corners[2]) / 2,

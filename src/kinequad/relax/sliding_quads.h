@@ -48,7 +48,8 @@ struct GapOptions {
     /// lengths of the quads' edges.
     double limit = 0.45;
     /// Whether distances below `roughly_near_share` are not told apart, nor which of several quads
-    /// as near as that is the nearest; takes half the time.
+    /// as near as that is the nearest, while what is far is looked at more closely: for many
+    /// frames.
     bool is_rough = false;
     /// Whether patches move as one where no vertex alone brings the two closer.
     bool drags_patches = false;

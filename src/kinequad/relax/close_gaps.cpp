@@ -194,10 +194,13 @@ GapsLeft SlidingQuads::close_gaps(const GapOptions& options, const Context& cont
         }
     };
     // A search costs time: there is one for every other vertex, on average, and a patch is dragged
-    // for every sixteenth.
+    // for every sixteenth, or fewer where each has to be looked at in many frames.
+    constexpr std::size_t usual_frames = 64;
+    const std::size_t patches =
+        quads_.vertex.size() / 16 * usual_frames / std::max(usual_frames, frames_.size());
     go_over(1, quads_.vertex.size() / 2, [&](int v) { return close_gaps_at(v, gaps, context); });
     if (options.drags_patches) {
-        go_over(0, quads_.vertex.size() / 16, [&](int v) {
+        go_over(0, patches, [&](int v) {
             if (!drag(v, gaps, context)) return false;
             for (const int c : corners_of(v)) {
                 for (const int w : vertices_around(c / 4, 0)) {

@@ -44,7 +44,7 @@ double squared_distance_to_quad(const Vector3& point, const QuadCorners& p) {
 
 SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
                          const Context& context)
-    : sliding_(quads), shape_weight_(options.shape_weight), is_dense_(options.is_rough) {
+    : sliding_(quads), shape_weight_(options.shape_weight), is_rough_(options.is_rough) {
     choose_points();
     choose_sides();
     views_.resize(sliding_.frames_.size());
@@ -54,12 +54,12 @@ SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
         views_[f].squared_near =
             square((options.is_rough ? roughly_near_share : near_share) * frame.mean_edge);
         look_at_quads(f, context);
-        look_at_points(f, options.is_rough, context);
+        look_at_points(f, context);
     });
     if (!has_more_points_) return;
     choose_more_points();
     parallel_for(views_.size(), 1, context,
-                 [&](std::size_t f, std::size_t) { look_at_points(f, options.is_rough, context); });
+                 [&](std::size_t f, std::size_t) { look_at_points(f, context); });
 }
 
 std::vector<double> SlidingQuads::Gaps::at_quads() const {
@@ -242,13 +242,13 @@ void SlidingQuads::Gaps::choose_points() {
     }
     const std::vector<char> all(at(topology.vertex_count), 1);
     const std::size_t vertices = points_.size();
-    if (is_dense_) {
+    if (is_rough_) {
         choose_points_on_edges(close_spacing, all);
         if (points_.size() * sliding_.frames_.size() <= most_close_points) return;
         points_.resize(vertices);
     }
     choose_points_on_edges(spacing, all);
-    has_more_points_ = is_dense_;
+    has_more_points_ = is_rough_;
 }
 
 /// Points closer to one another on edges with an end that is not near in some frame: there the
@@ -263,9 +263,9 @@ void SlidingQuads::Gaps::choose_more_points() {
     choose_points_on_edges(close_spacing, is_far);
 }
 
-/// Points that part edges with an end in `is_wanted` (v) into pieces of at most `spacing` mean
+/// Points that part edges with an end in `is_wanted` (v) into pieces of at most `longest` mean
 /// lengths of the quads' edges in all frames.
-void SlidingQuads::Gaps::choose_points_on_edges(double spacing,
+void SlidingQuads::Gaps::choose_points_on_edges(double longest,
                                                 const std::vector<char>& is_wanted) {
     constexpr double most_parts = 8;
     const Topology& topology = sliding_.topology_;
@@ -279,7 +279,7 @@ void SlidingQuads::Gaps::choose_points_on_edges(double spacing,
             const double here = (frame.input.row(a) - frame.input.row(b)).norm();
             length = std::max(length, here / frame.mean_edge);
         }
-        const int parts = static_cast<int>(std::min(most_parts, std::ceil(length / spacing)));
+        const int parts = static_cast<int>(std::min(most_parts, std::ceil(length / longest)));
         for (int i = 1; i < parts; ++i) {
             points_.push_back({a, b, static_cast<double>(i) / parts});
         }
@@ -312,7 +312,7 @@ void SlidingQuads::Gaps::look_at_quads(std::size_t f, const Context& context) {
 }
 
 /// Looks at the points that have not been looked at in frame `f`.
-void SlidingQuads::Gaps::look_at_points(std::size_t f, bool is_rough, const Context& context) {
+void SlidingQuads::Gaps::look_at_points(std::size_t f, const Context& context) {
     const Frame& frame = sliding_.frames_[f];
     View& view = views_[f];
     const ClosestPoints quads(frame.vertices, cut_quads(sliding_.quads_.Q, frame.vertices));
@@ -320,7 +320,7 @@ void SlidingQuads::Gaps::look_at_points(std::size_t f, bool is_rough, const Cont
     for (std::size_t x = view.of_point.size(); x < points_.size(); ++x) {
         if (x % 4096 == 0) context.check_cancelled();
         const Vector3 point = points_[x].position(frame.input);
-        const ClosestPoint closest = is_rough
+        const ClosestPoint closest = is_rough_
                                          ? quads.find_unless_near(view.squared_near, point, hint)
                                          : quads.find(point, hint);
         hint = closest.point.triangle;
@@ -388,7 +388,8 @@ double SlidingQuads::Gaps::squared_distance_inside(const std::array<Vector3, 3>&
 }
 
 /// Largest squared distance of points of a quad to the input: on the sides that are its own, on
-/// the shorter diagonal and inside the two triangles; on more of them where one is not near.
+/// the shorter diagonal and inside the two triangles; on more of them where one is not near. Where
+/// all frames count and one is far, whatever is farther inside.
 /// What is near counts as if it just were.
 double SlidingQuads::Gaps::squared_distance_of(int quad, std::size_t f) const {
     const Frame& frame = sliding_.frames_[f];
@@ -426,7 +427,7 @@ double SlidingQuads::Gaps::squared_distance_of(int quad, std::size_t f) const {
     if (is_line_far || is_first_far || is_second_far) {
         ask_on_lines({0.125, 0.375, 0.625, 0.875});
     }
-    if (!is_dense_ || farthest <= square(worth_a_closer_look * views_[f].unit)) return farthest;
+    if (!is_rough_ || farthest <= square(worth_a_closer_look * views_[f].unit)) return farthest;
     for (const auto& corners :
          {std::array{p[k], p[k + 1], p[k + 2]}, {p[k], p[k + 2], p[(k + 3) % 4]}}) {
         farthest =

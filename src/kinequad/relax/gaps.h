@@ -77,10 +77,10 @@ private:
     double shape_cost(const Surroundings& around) const;
     void choose_points();
     void choose_more_points();
-    void choose_points_on_edges(double spacing, const std::vector<char>& is_wanted);
+    void choose_points_on_edges(double longest, const std::vector<char>& is_wanted);
     void choose_sides();
     void look_at_quads(std::size_t f, const Context& context);
-    void look_at_points(std::size_t f, bool is_rough, const Context& context);
+    void look_at_points(std::size_t f, const Context& context);
     std::pair<double, int> nearest_in(const std::vector<int>& quads, int x, std::size_t f,
                                       double enough) const;
     double squared_distance(const Surroundings& around, std::size_t f, double too_far) const;
@@ -90,7 +90,7 @@ private:
 
     const SlidingQuads& sliding_;
     double shape_weight_;
-    bool is_dense_;                  ///< whether more points are looked at where some are not near
+    bool is_rough_;                  ///< see `GapOptions`
     bool has_more_points_ = false;   ///< whether some points come once it is known what is far
     std::vector<EdgePoint> points_;  ///< of the input
     std::vector<char> owns_side_;    ///< corner c: whether the side that begins there is looked at

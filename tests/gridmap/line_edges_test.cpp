@@ -52,6 +52,7 @@ void expect_lines_kept(const GridMap& map, std::size_t least_count) {
     const GridMapReport report = verify_grid_map(map);
     EXPECT_TRUE(report.valid());
     EXPECT_EQ(report.unaligned_edges, 0);
+    EXPECT_EQ(map.lost_line_edges, 0);
     EXPECT_GE(std::count(map.is_line.begin(), map.is_line.end(), 1), 2 * least_count);
 }
 
@@ -82,6 +83,34 @@ TEST(LineEdges, LinesMayEndCrossAndReachTheBoundary) {
     lines.insert(lines.end(), across.begin(), across.end());
     ASSERT_EQ(lines.size(), 16 + across.size());
     expect_lines_kept(map_with_lines(mesh, lines, 300), lines.size());
+}
+
+TEST(LineEdges, ThoseThatNoMapHasAreCounted) {
+    // Three lines leave the middle within a right angle: that is one more than a map can tell
+    // apart.
+    const TriangleMesh mesh = test::square(16);
+    const Topology topology = build_topology(mesh.F, static_cast<int>(mesh.V.rows()));
+    const double low = mesh.V.minCoeff();
+    const double size = mesh.V.maxCoeff() - low;
+    const auto from_middle = [&](const Vector3& p, int k) { return (p[k] - low) / size - 0.5; };
+    const auto is_on = [&](const Vector3& p) {
+        const double x = from_middle(p, 0);
+        const double y = from_middle(p, 1);
+        const bool is_near = std::max(std::abs(x), std::abs(y)) < 0.3;
+        return is_near && (std::abs(x) < 1e-9 || std::abs(y) < 1e-9 || std::abs(x - y) < 1e-9);
+    };
+    std::vector<int> lines;
+    for (const int e : edges_where(topology, mesh.V, is_on)) {
+        const int h = topology.edge_half_edge[static_cast<std::size_t>(e)];
+        const Vector3 middle = (mesh.V.row(topology.origin[static_cast<std::size_t>(h)]) +
+                                mesh.V.row(topology.target(h))) /
+                               2;
+        if (is_on(middle)) lines.push_back(e);
+    }
+    const GridMap map = map_with_lines(mesh, lines, 300);
+    EXPECT_TRUE(verify_grid_map(map).valid());
+    EXPECT_GT(map.lost_line_edges, 0);
+    EXPECT_LT(map.lost_line_edges, static_cast<int>(lines.size()));
 }
 
 TEST(FeatureLines, AllEdgesOfACubeAreIntegerLines) {

@@ -60,6 +60,7 @@ protected:
         double slant = 0;
         int singular = 0;
         double quads = 1000;
+        int lost_line_edges = 0;
         bool fails = false;
         double relaxed_slant = 0;
         bool covers_when_relaxed = false;
@@ -90,6 +91,7 @@ protected:
             result_.field.index.head(outcome.singular).setOnes();
             result_.map.wanted_quads = 1000;
             result_.map.quads = outcome.quads;
+            result_.map.lost_line_edges = outcome.lost_line_edges;
             return slanted(outcome.slant);
         };
         const auto finish = [&](const SolvedRecipe& solved, const Context& context) {
@@ -154,6 +156,17 @@ TEST_F(BestRecipe, KeepsToTheWantedNumber) {
     outcomes[1] = {.slant = 0.2};
     choose(outcomes);
     EXPECT_TRUE(is_kept(1));
+}
+
+TEST_F(BestRecipe, KeepsTheLineOfSymmetryIfItCan) {
+    std::vector<Outcome> outcomes(recipes_.size(), Outcome{.slant = 0.1, .lost_line_edges = 3});
+    outcomes[2] = {.slant = 0.2};
+    choose(outcomes);
+    EXPECT_TRUE(is_kept(2));
+    EXPECT_EQ(std::count(relaxed_.begin(), relaxed_.end(), 1), 1);
+    outcomes[2] = {.slant = 0.01, .quads = 1100};
+    choose(outcomes);
+    EXPECT_FALSE(is_kept(2));
 }
 
 TEST_F(BestRecipe, IsTheOneThatIsBestOnceItIsRelaxed) {

@@ -55,6 +55,19 @@ std::vector<int> features_on_lines(const GridMap& map, const Topology& topology)
     return edges;
 }
 
+/// Number of `lines`, edges of the surface that is mapped, that are not all on lines of its map.
+int count_lost(const std::vector<int>& lines, const GridMap& map, const Topology& topology) {
+    std::vector<char> is_lost(at(topology.edge_count), 0);
+    for (std::size_t h = 0; h < map.is_line.size(); ++h) {
+        const int side = side_of_parent(map.mesh, static_cast<int>(h));
+        if (side >= 0 && map.is_line[h] == 0) is_lost[at(topology.edge[at(side)])] = 1;
+    }
+    return static_cast<int>(std::count_if(lines.begin(), lines.end(), [&](int e) {
+        const bool is_inside = topology.twin[at(topology.edge_half_edge[at(e)])] >= 0;
+        return is_inside && is_lost[at(e)] != 0;
+    }));
+}
+
 }  // namespace
 
 double edge_length_for(const Topology& topology, const IntrinsicMetric& metric, int vertex_count) {
@@ -102,6 +115,7 @@ GridMap compute_grid_map(const Topology& topology, const IntrinsicMetric& metric
     }
     GridMap whole = join_maps(components, maps, topology.vertex_count);
     whole.feature_edges = features_on_lines(whole, topology);
+    whole.lost_line_edges = count_lost(options.line_edges, whole, topology);
     whole.wanted_quads = wanted;
     whole.quads = made;
     context.report_progress("grid map", 1);

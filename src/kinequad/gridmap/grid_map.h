@@ -42,6 +42,8 @@ struct GridMap {
     /// Of the features of the surface that was mapped, the edges (ascending) that lie on integer
     /// lines.
     std::vector<int> feature_edges;
+    int lost_line_edges = 0;  ///< edges that had to lie on integer lines and do not, as no map of
+                              ///< their part has them there
     double wanted_quads = 0;  ///< number of quads that was asked for
     double quads = 0;         ///< number of quads, the area of the map in cells
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "kinequad/core/index.h"
 
@@ -11,25 +12,55 @@ namespace {
 
 int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
+/// How near to a vertex the zero set crosses an edge where it is taken to pass through the vertex.
+class SnapReach {
+public:
+    SnapReach(const Topology& topology, const IntrinsicMetric& metric, double share, SnapUnit unit)
+        : metric_(metric), share_(share), unit_(unit) {
+        if (unit == SnapUnit::crossed_edge) return;
+        shortest_.assign(at(topology.vertex_count), std::numeric_limits<double>::infinity());
+        for (int e = 0; e < topology.edge_count; ++e) {
+            const int h = topology.edge_half_edge[at(e)];
+            for (const int v : {topology.origin[at(h)], topology.target(h)}) {
+                shortest_[at(v)] = std::min(shortest_[at(v)], metric.edge_length[e]);
+            }
+        }
+    }
+
+    /// As a share of edge `e`, from its end `v`.
+    double share(int v, int e) const {
+        const double length = metric_.edge_length[e];
+        if (unit_ == SnapUnit::crossed_edge || !(length > 0)) return share_;
+        return share_ * shortest_[at(v)] / length;
+    }
+
+private:
+    const IntrinsicMetric& metric_;
+    double share_;
+    SnapUnit unit_;
+    std::vector<double> shortest_;  ///< v: length of the shortest edge
+};
+
 /// Moves vertices next to the zero set onto it, one after the other.
 class Snapping {
 public:
     Snapping(const Topology& topology, Eigen::VectorXd height)
         : topology_(topology), height_(std::move(height)) {}
 
-    void run(double share) {
+    void run(const SnapReach& reach) {
         struct Candidate {
             double share;
             int vertex;
         };
         std::vector<Candidate> candidates;
-        for (const int h : topology_.edge_half_edge) {
+        for (int e = 0; e < topology_.edge_count; ++e) {
+            const int h = topology_.edge_half_edge[at(e)];
             const int a = topology_.origin[at(h)];
             const int b = topology_.target(h);
             if (sign(height_[a]) * sign(height_[b]) >= 0) continue;
             const double along = height_[a] / (height_[a] - height_[b]);
-            if (along < share) candidates.push_back({along, a});
-            if (1 - along < share) candidates.push_back({1 - along, b});
+            if (along < reach.share(a, e)) candidates.push_back({along, a});
+            if (1 - along < reach.share(b, e)) candidates.push_back({1 - along, b});
         }
         std::sort(candidates.begin(), candidates.end(), [](const Candidate& x, const Candidate& y) {
             return x.share != y.share ? x.share < y.share : x.vertex < y.vertex;
@@ -80,7 +111,7 @@ private:
 class Cutting {
 public:
     Cutting(const Topology& topology, const IntrinsicMetric& metric, const Eigen::VectorXd& height,
-            double least_share)
+            const SnapReach& reach)
         : topology_(topology), metric_(metric), height_(height) {
         split_.mesh.vertex_count = topology.vertex_count;
         for (int v = 0; v < topology.vertex_count; ++v) {
@@ -94,7 +125,8 @@ public:
             const double b = height[topology.target(h)];
             if (sign(a) * sign(b) >= 0) continue;
             crossing_[at(e)] = split_.mesh.vertex_count++;
-            share_[at(e)] = std::clamp(a / (a - b), least_share, 1 - least_share);
+            share_[at(e)] = std::clamp(a / (a - b), reach.share(topology.origin[at(h)], e) / 2,
+                                       1 - reach.share(topology.target(h), e) / 2);
             split_.is_on_level.push_back(1);
         }
     }
@@ -199,10 +231,11 @@ private:
 }  // namespace
 
 LevelSplit split_along_level(const Topology& topology, const IntrinsicMetric& metric,
-                             const Eigen::VectorXd& height, double snap_share) {
+                             const Eigen::VectorXd& height, double snap_share, SnapUnit unit) {
+    const SnapReach reach(topology, metric, snap_share, unit);
     Snapping snapping(topology, height);
-    snapping.run(snap_share);
-    return Cutting(topology, metric, snapping.height(), snap_share / 2).run();
+    snapping.run(reach);
+    return Cutting(topology, metric, snapping.height(), reach).run();
 }
 
 }  // namespace kinequad

@@ -43,7 +43,8 @@ double mean_angle_deviation(const QuadMesh& quads, const std::vector<DomainView>
 struct Candidate {
     SolvedRecipe recipe;
     bool is_off_count = false;
-    double angle = 0;  ///< mean deviation, in degrees
+    bool has_lost_lines = false;  ///< of symmetry
+    double angle = 0;             ///< mean deviation, in degrees
     std::ptrdiff_t singular = 0;
 
     double cost() const {
@@ -51,7 +52,8 @@ struct Candidate {
         return angle * (1 + share_of_singularity * static_cast<double>(singular));
     }
     bool operator<(const Candidate& other) const {
-        return std::tuple(is_off_count, cost()) < std::tuple(other.is_off_count, other.cost());
+        return std::tuple(is_off_count, has_lost_lines, cost()) <
+               std::tuple(other.is_off_count, other.has_lost_lines, other.cost());
     }
 };
 
@@ -65,6 +67,7 @@ Candidate take_candidate(Result& result, QuadMesh quads, const std::vector<Domai
     const SolvedRecipe& recipe = candidate.recipe;
     candidate.is_off_count =
         !recipe.notes.empty() || std::abs(recipe.map.quads / recipe.map.wanted_quads - 1) > allowed;
+    candidate.has_lost_lines = recipe.map.lost_line_edges > 0;
     candidate.angle = mean_angle_deviation(recipe.quads, views);
     candidate.singular = (recipe.field.index.array() != 0).count();
     if (recipe.domain.is_half()) candidate.singular *= 2;
@@ -106,7 +109,8 @@ void keep_promising(std::vector<Candidate>& candidates) {
     std::stable_sort(candidates.begin(), candidates.end());
     const Candidate& best = candidates.front();
     const auto end = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
-        return c.is_off_count != best.is_off_count || c.cost() > (1 + most_behind) * best.cost();
+        return c.is_off_count != best.is_off_count || c.has_lost_lines != best.has_lost_lines ||
+               c.cost() > (1 + most_behind) * best.cost();
     });
     candidates.erase(candidates.begin() + std::min(end - candidates.begin(), most_kept),
                      candidates.end());
@@ -129,9 +133,12 @@ std::vector<Candidate> solve_recipes(const std::vector<Options>& recipes,
             candidates.push_back(take_candidate(result, solve(), views));
             context.write_log(
                 LogLevel::info,
-                fmt::format("recipe: {} singularities and angles {:.2f} degrees off "
-                            "before relaxation, with {}",
-                            candidates.back().singular, candidates.back().angle, name_of(recipe)));
+                fmt::format(
+                    "recipe: {} singularities and angles {:.2f} degrees off before relaxation{}, "
+                    "with {}",
+                    candidates.back().singular, candidates.back().angle,
+                    candidates.back().has_lost_lines ? ", parts of the line of symmetry lost" : "",
+                    name_of(recipe)));
             keep_promising(candidates);
         } catch (const Error& error) {
             if (!may_be_overcome(error)) throw;

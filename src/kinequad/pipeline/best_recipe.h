@@ -39,7 +39,8 @@ struct RecipeSteps {
 /// relaxed: fewest folded quads in the pose `reference` (n x 3) of `frames`, the surface of the
 /// run, then angles and, a tenth as much, the Hausdorff distance. Where they are farther from the
 /// input than usual, the next ones are finished, four at most. Recipes that miss the wanted number
-/// of vertices stand behind the others, and those that fail are left out, unless all do. Returns
+/// of vertices stand behind the others, as do those whose map leaves out some of the line of
+/// symmetry, and those that fail are left out, unless all do. Returns
 /// the finished quads. Throws what the `steps` throw. docs/pipeline.md
 QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& reference,
                             const std::vector<DomainView>& views, Result& result,

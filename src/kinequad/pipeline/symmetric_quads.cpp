@@ -242,7 +242,9 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     const IntrinsicMetric& metric = surface.metric;
     const Positions& reference = surface.reference;
     const SymmetryMap& map = result.symmetry->map;
-    const LevelSplit split = insert_stationary_curve(topology, metric, map);
+    // A line of quads runs along the curve: long triangles must not bend it.
+    const LevelSplit split =
+        insert_stationary_curve(topology, metric, map, SnapUnit::shortest_edge);
     keep_to_curve(result.domain, split, map, frames.triangles());
     finish_stage("symmetry");
     measure_deformation({{frames, reference, metric}}, result, context, finish_stage);

@@ -189,9 +189,9 @@ std::optional<SurfacePoint> mirror_on_boundary(const BoundaryArcs& arcs, const S
 }  // namespace
 
 LevelSplit insert_stationary_curve(const Topology& topology, const IntrinsicMetric& metric,
-                                   const SymmetryMap& map) {
+                                   const SymmetryMap& map, SnapUnit unit) {
     constexpr double snap_share = 0.2;
-    return split_along_level(topology, metric, map.height, snap_share);
+    return split_along_level(topology, metric, map.height, snap_share, unit);
 }
 
 SymmetricHalf take_symmetric_half(const Topology& topology, const IntrinsicMetric& metric,

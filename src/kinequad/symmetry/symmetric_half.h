@@ -20,9 +20,9 @@ struct SymmetricHalf {
 };
 
 /// The surface with the stationary curve of `map` inserted as edges. Vertices of the input next to
-/// the curve come to lie on it (see `split_along_level`).
+/// the curve, in terms of `unit`, come to lie on it (see `split_along_level`).
 LevelSplit insert_stationary_curve(const Topology& topology, const IntrinsicMetric& metric,
-                                   const SymmetryMap& map);
+                                   const SymmetryMap& map, SnapUnit unit = SnapUnit::crossed_edge);
 
 /// Cuts the surface along the stationary curve of `map` and keeps the side of positive height, of
 /// components that the curve does not meet the whole ones there. Images of boundary vertices lie on

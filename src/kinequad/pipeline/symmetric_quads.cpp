@@ -17,6 +17,7 @@
 #include "kinequad/pipeline/solve_quads.h"
 #include "kinequad/relax/relax_quads.h"
 #include "kinequad/symmetry/even_out_half.h"
+#include "kinequad/symmetry/fair_stationary_curve.h"
 #include "kinequad/symmetry/verify_symmetry_map.h"
 #include "kinequad/transfer/carried_sequence.h"
 
@@ -242,10 +243,13 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     const IntrinsicMetric& metric = surface.metric;
     const Positions& reference = surface.reference;
     const SymmetryMap& map = result.symmetry->map;
-    // A line of quads runs along the curve: long triangles must not bend it.
+    // A line of quads runs along the curve: neither needles nor long triangles must bend it.
+    constexpr double fairing_share = 0.25;
+    const SymmetryMap faired =
+        fair_stationary_curve(map, topology, metric, fairing_share * result.edge_length);
     const LevelSplit split =
-        insert_stationary_curve(topology, metric, map, SnapUnit::shortest_edge);
-    keep_to_curve(result.domain, split, map, frames.triangles());
+        insert_stationary_curve(topology, metric, faired, SnapUnit::shortest_edge);
+    keep_to_curve(result.domain, split, faired, frames.triangles());
     finish_stage("symmetry");
     measure_deformation({{frames, reference, metric}}, result, context, finish_stage);
 

@@ -31,7 +31,6 @@ constexpr std::size_t most_close_points = 2'000'000;
 constexpr std::size_t compared_frames = 3;
 
 double square(double x) { return x * x; }
-double eighth_power(double squared) { return square(square(squared)); }
 
 double squared_distance_to_quad(const Vector3& point, const QuadCorners& p) {
     const std::size_t k = end_of_cut(p);
@@ -60,6 +59,17 @@ SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
     choose_more_points();
     parallel_for(views_.size(), 1, context,
                  [&](std::size_t f, std::size_t) { look_at_points(f, context); });
+}
+
+/// What a distance counts whose square is this many squared units.
+double SlidingQuads::Gaps::misfit_of(double squared) const {
+    const double eighth_power = square(square(squared));
+    return is_rough_ ? square(eighth_power) : eighth_power;
+}
+
+/// The square of the distance that counts this much, in squared units.
+double SlidingQuads::Gaps::squared_distance_with(double misfit) const {
+    return std::sqrt(std::sqrt(is_rough_ ? std::sqrt(misfit) : misfit));
 }
 
 std::vector<double> SlidingQuads::Gaps::at_quads() const {
@@ -130,7 +140,7 @@ SlidingQuads::Gaps::Surroundings SlidingQuads::Gaps::surroundings(
             }
         }
         order.emplace_back(-farthest / view.unit, f);
-        misfit += eighth_power(square(farthest / view.unit));
+        misfit += misfit_of(square(farthest / view.unit));
     }
     std::sort(order.begin(), order.end());
     for (const auto& [negative, f] : order) around.frames.push_back(f);
@@ -161,8 +171,8 @@ double SlidingQuads::Gaps::rough_cost(const Surroundings& around, double enough)
         const std::size_t f = around.frames[i];
         const double squared_unit = square(views_[f].unit);
         const double too_far =
-            left < infinity ? squared_unit * std::sqrt(std::sqrt(left)) : infinity;
-        misfit += eighth_power(squared_distance(around, f, too_far) / squared_unit);
+            left < infinity ? squared_unit * squared_distance_with(left) : infinity;
+        misfit += misfit_of(squared_distance(around, f, too_far) / squared_unit);
     }
     return shape + misfit;
 }
@@ -185,7 +195,7 @@ bool SlidingQuads::Gaps::take_if_better(const Surroundings& around, const Contex
                          }
                      });
         for (std::size_t i = first; i < seen.size(); ++i) {
-            misfit += eighth_power(seen[i].farthest / square(views_[around.frames[i]].unit));
+            misfit += misfit_of(seen[i].farthest / square(views_[around.frames[i]].unit));
         }
     }
     if (shape + misfit >= around.cost) return false;

@@ -34,9 +34,9 @@ public:
     };
     Surroundings surroundings(const std::vector<int>& vertices) const;
 
-    /// What is to become less: the sum of the eighth powers of the largest distances, and what the
-    /// shape of the quads costs, but with distances in the first few frames of `around` alone:
-    /// enough to compare places. Does not add up beyond `enough`.
+    /// What is to become less: the sum of the powers of the largest distances, see `GapOptions`,
+    /// and what the shape of the quads costs, but with distances in the first few frames of
+    /// `around` alone: enough to compare places. Does not add up beyond `enough`.
     double rough_cost(const Surroundings& around, double enough) const;
 
     /// Looks again at what has changed. Where the cost over all frames is less than it was before
@@ -74,6 +74,8 @@ private:
 
     Look look(const Surroundings& around, std::size_t f) const;
     void keep(const Surroundings& around, std::size_t f, const Look& seen);
+    double misfit_of(double squared) const;
+    double squared_distance_with(double misfit) const;
     double shape_cost(const Surroundings& around) const;
     void choose_points();
     void choose_more_points();

@@ -48,13 +48,13 @@ struct GapOptions {
     /// lengths of the quads' edges.
     double limit = 0.45;
     /// Whether distances below `roughly_near_share` are not told apart, nor which of several quads
-    /// as near as that is the nearest, while what is far is looked at more closely: for many
-    /// frames.
+    /// as near as that is the nearest, while what is far is looked at more closely and counts by
+    /// its sixteenth power, not its eighth: for many frames, each of which is to be close.
     bool is_rough = false;
     /// Whether patches move as one where no vertex alone brings the two closer.
     bool drags_patches = false;
     /// What the shape of quads, mean over the frames with a weight, counts beside the sum of the
-    /// eighth powers of the distances, in limits, over all frames.
+    /// powers of the distances, in limits, over all frames.
     double shape_weight = 3;
 };
 

@@ -244,7 +244,7 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     const Positions& reference = surface.reference;
     const SymmetryMap& map = result.symmetry->map;
     // A line of quads runs along the curve: neither needles nor long triangles must bend it.
-    constexpr double fairing_share = 0.5;
+    constexpr double fairing_share = 0.25;
     const SymmetryMap faired =
         fair_stationary_curve(map, topology, metric, fairing_share * result.edge_length);
     const LevelSplit split =

@@ -42,7 +42,7 @@ bool SlidingQuads::close_gaps_at(int v, Gaps& gaps, const Context& context) {
     const Gaps::Surroundings around = gaps.surroundings({v});
     const SurfacePoint before = quads_.vertex[at(v)];
     const double least_jacobian = std::min(least_jacobian_around(v), least_closing_jacobian);
-    const double longest = std::max(longest_edge(v), most_stretch);
+    const double longest = gaps.longest_allowed(longest_edge(v));
     const bool is_moved = search_around(v, steps, [&](double least) {
         if (least_jacobian_around(v) < least_jacobian || longest_edge(v) > longest) return least;
         return gaps.rough_cost(around, least);
@@ -135,7 +135,7 @@ bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
     const double least_allowed = std::min(least_jacobian(), least_closing_jacobian);
     const auto [shortest, longest] = patch.extent();
     const double shortest_allowed = std::min(shortest, least_edge_share * frames_[0].mean_edge);
-    const double longest_allowed = std::max(longest, most_stretch);
+    const double longest_allowed = gaps.longest_allowed(longest);
     const auto is_allowed = [&] {
         const auto [shortest_now, longest_now] = patch.extent();
         return shortest_now >= shortest_allowed && longest_now <= longest_allowed &&

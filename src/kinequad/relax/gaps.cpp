@@ -43,7 +43,10 @@ double squared_distance_to_quad(const Vector3& point, const QuadCorners& p) {
 
 SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
                          const Context& context)
-    : sliding_(quads), shape_weight_(options.shape_weight), is_rough_(options.is_rough) {
+    : sliding_(quads),
+      shape_weight_(options.shape_weight),
+      most_stretch_(options.most_stretch),
+      is_rough_(options.is_rough) {
     choose_points();
     choose_sides();
     views_.resize(sliding_.frames_.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -38,6 +39,9 @@ public:
     /// and what the shape of the quads costs, but with distances in the first few frames of
     /// `around` alone: enough to compare places. Does not add up beyond `enough`.
     double rough_cost(const Surroundings& around, double enough) const;
+
+    /// Length that no move makes the longest edge at a vertex longer than, where it is `longest`.
+    double longest_allowed(double longest) const { return std::max(longest, most_stretch_); }
 
     /// Looks again at what has changed. Where the cost over all frames is less than it was before
     /// anything moved, keeps what it sees and returns true.
@@ -92,6 +96,7 @@ private:
 
     const SlidingQuads& sliding_;
     double shape_weight_;
+    double most_stretch_;
     bool is_rough_;                  ///< see `GapOptions`
     bool has_more_points_ = false;   ///< whether some points come once it is known what is far
     std::vector<EdgePoint> points_;  ///< of the input

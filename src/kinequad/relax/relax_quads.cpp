@@ -313,6 +313,7 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
                                const Topology& topology, const IntrinsicMetric& metric,
                                const RelaxOptions& options, const Context& context) {
     constexpr double shape_weight = 3;
+    constexpr double longest_stretch = 4;
     constexpr double held_share = 0.85;
     constexpr double settled_share = 0.7;
     // Of what closes gaps once more at the end.
@@ -330,7 +331,8 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     // Shapes count in fewer frames than distances do, and have to hold their own.
     const auto gaps_within = [&](double gap_limit, double weight) {
         return GapOptions{gap_limit, true, options.drags_patches,
-                          std::max(weight * sliding.frames_per_shaped(), least_shape_weight)};
+                          std::max(weight * sliding.frames_per_shaped(), least_shape_weight),
+                          longest_stretch};
     };
     const auto share_of_far = [&](const GapsLeft& left) {
         const auto far = std::count_if(left.at_quads.begin(), left.at_quads.end(),

@@ -21,8 +21,8 @@ inline constexpr FoldBarrier relaxing_barrier;
 /// rows evenly apart.
 inline constexpr double spacing_weight = 0.1;
 
-/// Length beyond which neither passes nor `close_gaps` make the longest edge at a vertex longer in
-/// any frame with a weight, in mean lengths.
+/// Length beyond which passes do not make the longest edge at a vertex longer in any frame with a
+/// weight, in mean lengths.
 inline constexpr double most_stretch = 3;
 
 /// Length below which no move makes the shortest edge at a vertex shorter in the first reference,
@@ -56,6 +56,9 @@ struct GapOptions {
     /// What the shape of quads, mean over the frames with a weight, counts beside the sum of the
     /// powers of the distances, in limits, over all frames.
     double shape_weight = 3;
+    /// Length beyond which no move makes the longest edge at a vertex longer in any frame with a
+    /// weight, in mean lengths.
+    double most_stretch = kinequad::most_stretch;
 };
 
 /// Distances between quads and input, in units of the limit that was asked for.

@@ -117,6 +117,52 @@ TEST(CloseGaps, CountsTheFarthestOfEveryFrame) {
     EXPECT_NEAR(farthest({{bent, 1}, {grid.mesh.V, 0}}), (flat + spiked) / 2, 1e-12);
 }
 
+/// The largest distance between quads and a spike, in units of the limit, once gaps are closed.
+double left_at_spike(const GapOptions& options) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    return largest(grid.sliding({{grid.mesh.V, 1}}).close_gaps(options, {}).at_quads);
+}
+
+TEST(CloseGaps, BeyondTheLimitCountsForMoreWhenRough) {
+    bool is_any_closer = false;
+    for (const double weight : {1., 3., 10., 30., 100.}) {
+        const double exact = left_at_spike({.limit = 0.45, .shape_weight = weight});
+        const double rough =
+            left_at_spike({.limit = 0.45, .is_rough = true, .shape_weight = weight});
+        if (exact > 1) {
+            EXPECT_LE(rough, exact + 1e-9) << weight;
+        }
+        if (rough < 0.9 * exact) is_any_closer = true;
+    }
+    EXPECT_TRUE(is_any_closer);
+}
+
+TEST(CloseGaps, MakesNoEdgeLongerThanIsAllowed) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    const auto longest_edge = [&](const QuadMesh& quads) {
+        double longest = 0;
+        for (Eigen::Index q = 0; q < quads.Q.rows(); ++q) {
+            const QuadCorners p = grid.corners(quads, grid.mesh.V, q);
+            for (std::size_t k = 0; k < 4; ++k) {
+                longest = std::max(longest, (p[(k + 1) % 4] - p[k]).norm());
+            }
+        }
+        return longest;
+    };
+    const double mean = grid.sliding({{grid.mesh.V, 1}}).mean_edge_length();
+    const double before = longest_edge(grid.quads) / mean;
+    std::vector<double> lefts;
+    for (const double stretch : {1.0, 1.5, 3.0}) {
+        SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+        lefts.push_back(
+            largest(sliding.close_gaps({.limit = 0.3, .most_stretch = stretch}, {}).at_quads));
+        EXPECT_LE(longest_edge(sliding.quads()) / mean, std::max(before, stretch) + 1e-9);
+    }
+    EXPECT_LT(lefts.back(), 0.9 * lefts.front());
+}
+
 /// Cones of many heights between the vertices of the grid.
 TEST(CloseGaps, DraggedPatchesComeCloserThanVerticesAlone) {
     int closer = 0;

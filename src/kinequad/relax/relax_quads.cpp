@@ -315,9 +315,8 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     constexpr double shape_weight = 3;
     constexpr double longest_stretch = 4;
     constexpr double held_share = 0.85;
-    constexpr double settled_share = 0.7;
+    constexpr double settled_share = 0.85;
     // Of what closes gaps once more at the end.
-    constexpr int most_closings = 2;
     constexpr double closing_shape_weight = 1;
     constexpr double least_shape_weight = 3;
     constexpr double few_far = 0.006;
@@ -344,24 +343,20 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
         return std::sqrt(sliding.shape_cost()) *
                std::pow(gap_limit * left.mean_farthest, weight_of_distance);
     };
-    double gap_limit = options.gap_limit;
     const int between = std::max(1, options.watched_rounds / 2);
-    GapsLeft left =
-        settle(sliding, limit, {options.watched_rounds, between, held_share, true},
-               gaps_within(gap_limit, shape_weight), {"settling", 0, settled_share}, context);
+    const GapsLeft settled = settle(
+        sliding, limit, {options.watched_rounds, between, held_share, true},
+        gaps_within(options.gap_limit, shape_weight), {"settling", 0, settled_share}, context);
+    const double settled_grade = grade(settled, options.gap_limit);
     // What is left is worth more of the shapes, unless quads are too coarse for much of it. Where
     // nearly nothing is, a lower limit is reached for.
-    double least = grade(left, gap_limit);
-    for (int i = 0; i < most_closings && share_of_far(left) <= (i == 0 ? many_far : few_far); ++i) {
+    if (share_of_far(settled) <= many_far) {
         const SlidingQuads::State before = sliding.state();
-        if (share_of_far(left) <= few_far) gap_limit *= tightening;
-        left = sliding.close_gaps(gaps_within(gap_limit, closing_shape_weight), context);
-        const double now = grade(left, gap_limit);
-        if (now >= least) {
-            sliding.restore(before);
-            break;
-        }
-        least = now;
+        const double closing_limit =
+            options.gap_limit * (share_of_far(settled) <= few_far ? tightening : 1);
+        const GapsLeft closed =
+            sliding.close_gaps(gaps_within(closing_limit, closing_shape_weight), context);
+        if (grade(closed, closing_limit) >= settled_grade) sliding.restore(before);
     }
     context.report_progress("settling", 1);
     return sliding.quads();

@@ -164,9 +164,12 @@ TEST_F(BestRecipe, KeepsTheLineOfSymmetryIfItCan) {
     choose(outcomes);
     EXPECT_TRUE(is_kept(2));
     EXPECT_EQ(std::count(relaxed_.begin(), relaxed_.end(), 1), 1);
+    EXPECT_EQ(warnings_, (std::vector<std::string>{"relaxed 2"}));
     outcomes[2] = {.slant = 0.01, .quads = 1100};
     choose(outcomes);
     EXPECT_FALSE(is_kept(2));
+    ASSERT_EQ(warnings_.size(), 2U);
+    EXPECT_NE(warnings_[1].find("line of symmetry along 3 of its edges"), std::string::npos);
 }
 
 TEST_F(BestRecipe, IsTheOneThatIsBestOnceItIsRelaxed) {

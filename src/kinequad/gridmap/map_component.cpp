@@ -364,7 +364,7 @@ GridMap map_component(ChartedMesh mesh, const WantedQuads& wanted, const Context
     };
     if (std::any_of(mesh.is_line.begin(), mesh.is_line.end(), is_fixed_line)) {
         context.write_log(
-            LogLevel::warning,
+            LogLevel::info,
             fmt::format("gridmap: not with the line of symmetry through the part "
                         "with triangle {} as a line ({}); giving up what is in the way",
                         mesh.parent.front(), obstacle));

@@ -272,6 +272,13 @@ QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& referenc
     if (!best) std::rethrow_exception(failure);
     for (const std::string& line : kept.warnings) context.write_log(LogLevel::warning, line);
     put_recipe(std::move(candidates[*best].recipe), result);
+    if (result.map.lost_line_edges > 0) {
+        context.write_log(
+            LogLevel::warning,
+            fmt::format("gridmap: no chain of quad edges follows the line of symmetry along {} of "
+                        "its edges, where no map has it; refine the input there",
+                        result.map.lost_line_edges));
+    }
     const Options& last = recipes.back();
     const bool is_last = result.options.alpha == last.alpha &&
                          result.options.symmetrisation == last.symmetrisation &&

@@ -243,12 +243,15 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     const IntrinsicMetric& metric = surface.metric;
     const Positions& reference = surface.reference;
     const SymmetryMap& map = result.symmetry->map;
-    // A line of quads runs along the curve: neither needles nor long triangles must bend it.
+    // A line of quads runs along the curve: neither needles nor long triangles must bend it. The
+    // paper's method goes without.
     constexpr double fairing_share = 0.25;
+    const bool is_paper = result.options.field == CrossFieldMethod::paper;
     const SymmetryMap faired =
-        fair_stationary_curve(map, topology, metric, fairing_share * result.edge_length);
-    const LevelSplit split =
-        insert_stationary_curve(topology, metric, faired, SnapUnit::shortest_edge);
+        is_paper ? map
+                 : fair_stationary_curve(map, topology, metric, fairing_share * result.edge_length);
+    const LevelSplit split = insert_stationary_curve(
+        topology, metric, faired, is_paper ? SnapUnit::crossed_edge : SnapUnit::shortest_edge);
     keep_to_curve(result.domain, split, faired, frames.triangles());
     finish_stage("symmetry");
     measure_deformation({{frames, reference, metric}}, result, context, finish_stage);
@@ -276,8 +279,8 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     // The two ways to symmetry come out about as good as each other before relaxation.
     QuadMesh quads = finish_best_recipe(frames, reference, views, result, {solve, finish, 3},
                                         context, finish_stage);
-    // The paper's method goes without.
-    if (result.options.field == CrossFieldMethod::paper) return quads;
+    // Nor does it settle in all frames.
+    if (is_paper) return quads;
     const RefinementSearch search(split.mesh);
     for (SurfacePoint& point : quads.vertex) point = search.find(point);
     quads = settle_on_domain(cut.domain(), views, result.map.feature_edges, quads, result.options,

@@ -230,7 +230,7 @@ void add_method_options(CLI::App& app, RunCommand& command) {
     app.add_option(
         "--alpha", options.alpha,
         fmt::format("Influence of the animation, from 0 (see the reference frame only) to below "
-                    "1 [{}; the best of four or five with --symmetry exact or field]",
+                    "1 [{}; the best of five with --symmetry exact, of six with field]",
                     default_alpha(CrossFieldMethod::convex)));
     app.add_option("--curvature", options.curvature, "Influence of the curvature (convex only)")
         ->capture_default_str();

@@ -90,8 +90,10 @@ TEST(FairStationaryCurve, KeepsEveryLoop) {
     const SymmetryMap map =
         sphere.map([](const Vector3& p, int) { return std::abs(p[2]) - 0.93001; });
     ASSERT_EQ(map.stationary.size(), 2U);
+    const double tight = sphere.length(map);
     const SymmetryMap faired = fair_stationary_curve(map, sphere.topology, sphere.metric, 0.6);
     EXPECT_EQ(faired.stationary.size(), 2U);
+    EXPECT_LT(sphere.length(faired), 0.95 * tight);
 }
 
 }  // namespace

@@ -23,11 +23,12 @@ enum class SnapUnit {
 /// Inserts the zero set of `height` (n, linear along edges, nowhere zero) into a triangulation.
 ///
 /// Vertices within `snap_share` of the length of an edge from the zero set are taken to lie on it,
-/// the nearest first, where the zero set stays a curve that neither branches nor touches itself;
-/// where it would, the curve keeps half that share away from the vertex. So no triangle gets much
-/// thinner than it was. A zero set that passes through vertices within rounding errors, as on a
-/// mesh that is its own mirror image, passes through them exactly. `snap_share` in [0, 0.5).
-/// docs/symmetry.md
+/// those first that are nearest by the edge that is crossed, where the zero set stays a curve that
+/// neither branches nor touches itself; where it would, the curve keeps half that share away from
+/// the vertex. So, with the crossed edge for a unit, no triangle gets much thinner than it was;
+/// with the shortest one, long triangles may. A zero set that passes through vertices within
+/// rounding errors, as on a mesh that is its own mirror image, passes through them exactly.
+/// `snap_share` in [0, 0.5). docs/symmetry.md
 LevelSplit split_along_level(const Topology& topology, const IntrinsicMetric& metric,
                              const Eigen::VectorXd& height, double snap_share,
                              SnapUnit unit = SnapUnit::crossed_edge);

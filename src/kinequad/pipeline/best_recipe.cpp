@@ -276,7 +276,7 @@ QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& referenc
         context.write_log(
             LogLevel::warning,
             fmt::format("gridmap: no chain of quad edges follows the line of symmetry along {} of "
-                        "its edges, where no map has it; refine the input there",
+                        "its edges, where no map has it; --verbose says why",
                         result.map.lost_line_edges));
     }
     const Options& last = recipes.back();

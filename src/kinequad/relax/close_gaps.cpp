@@ -50,8 +50,10 @@ bool SlidingQuads::close_gaps_at(int v, Gaps& gaps, const Context& context) {
             return gaps.rough_cost(around, least);
         });
         if (!is_moved) return false;
-        if (gaps.take_if_better(around, context)) return true;
+        const Gaps::Verdict verdict = gaps.take_if_better(around, context);
+        if (verdict == Gaps::Verdict::taken) return true;
         place(v, before);
+        if (verdict == Gaps::Verdict::no_frame_helps) break;
     }
     return false;
 }
@@ -160,12 +162,13 @@ bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
             least_cost = cost;
             best = patch.places();
         }
-        if (best.empty()) break;
-        patch.put(best);
-        if (gaps.take_if_better(around, context)) return true;
+        if (!best.empty()) patch.put(best);
+        const Gaps::Verdict verdict =
+            best.empty() ? Gaps::Verdict::no_frame_helps : gaps.take_if_better(around, context);
+        if (verdict == Gaps::Verdict::taken) return true;
         patch.put_back();
+        if (verdict == Gaps::Verdict::no_frame_helps) break;
     }
-    patch.put_back();
     return false;
 }
 

@@ -181,7 +181,8 @@ double SlidingQuads::Gaps::rough_cost(const Surroundings& around, double enough)
     return shape + misfit;
 }
 
-bool SlidingQuads::Gaps::take_if_better(Surroundings& around, const Context& context) {
+SlidingQuads::Gaps::Verdict SlidingQuads::Gaps::take_if_better(Surroundings& around,
+                                                               const Context& context) {
     // Most places that are no better show it in the frames that come first.
     constexpr std::size_t frames_together = 16;
     constexpr std::size_t frames_of_thread = 4;
@@ -196,9 +197,10 @@ bool SlidingQuads::Gaps::take_if_better(Surroundings& around, const Context& con
         for (std::size_t i = worst; i < seen.size(); ++i) {
             if (of(i) > of(worst)) worst = i;
         }
-        if (worst >= seen.size()) return;
+        if (worst >= seen.size()) return Verdict::no_frame_helps;
         std::swap(around.frames[worst], around.frames[around.compared]);
         ++around.compared;
+        return Verdict::needs_a_frame;
     };
     while (seen.size() < views_.size()) {
         if (shape + misfit >= around.cost) break;
@@ -214,12 +216,9 @@ bool SlidingQuads::Gaps::take_if_better(Surroundings& around, const Context& con
             misfit += misfit_of(of(i));
         }
     }
-    if (shape + misfit >= around.cost) {
-        compare_in_worst();
-        return false;
-    }
+    if (shape + misfit >= around.cost) return compare_in_worst();
     for (std::size_t i = 0; i < seen.size(); ++i) keep(around, around.frames[i], seen[i]);
-    return true;
+    return Verdict::taken;
 }
 
 /// What the shape of the quads that change counts beside their distances from the input.

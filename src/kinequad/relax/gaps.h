@@ -49,10 +49,17 @@ public:
     /// Length that no move makes the longest edge at a vertex longer than, where it is `longest`.
     double longest_allowed(double longest) const { return std::max(longest, most_stretch_); }
 
+    /// What `take_if_better` comes to.
+    enum class Verdict {
+        taken,           ///< better, and known now
+        needs_a_frame,   ///< no better; another place may be: they are compared in one more frame
+        no_frame_helps,  ///< no better, as places have been compared in all frames that show it
+    };
+
     /// Looks again at what has changed. Where the cost over all frames is less than it was before
-    /// anything moved, keeps what it sees and returns true. Where it is not, places are compared in
-    /// the frame that has shown it, too, from now on.
-    bool take_if_better(Surroundings& around, const Context& context);
+    /// anything moved, keeps what it sees. Where it is not, places are compared from now on in the
+    /// frame, too, that is the farthest of those seen beside.
+    Verdict take_if_better(Surroundings& around, const Context& context);
 
 private:
     /// A point of the input that is looked at, on the edge from vertex `a` to vertex `b`.

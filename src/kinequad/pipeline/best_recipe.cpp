@@ -59,14 +59,12 @@ struct Candidate {
 
 /// Takes what the last recipe made out of `result`.
 Candidate take_candidate(Result& result, QuadMesh quads, const std::vector<DomainView>& views) {
-    constexpr double allowed = 0.05;
     Candidate candidate;
     candidate.recipe = {result.options,          std::move(result.domain), std::move(result.field),
                         result.field_symmetry,   std::move(result.map),    std::move(result.notes),
                         std::move(result.quads), std::move(quads)};
     const SolvedRecipe& recipe = candidate.recipe;
-    candidate.is_off_count =
-        !recipe.notes.empty() || std::abs(recipe.map.quads / recipe.map.wanted_quads - 1) > allowed;
+    candidate.is_off_count = misses_wanted_count(recipe);
     candidate.has_lost_lines = recipe.map.lost_line_edges > 0;
     candidate.angle = mean_angle_deviation(recipe.quads, views);
     candidate.singular = (recipe.field.index.array() != 0).count();
@@ -229,6 +227,12 @@ Grade grade_of(const QuadMesh& quads, const FrameSource& frames, const Positions
 }
 
 }  // namespace
+
+bool misses_wanted_count(const SolvedRecipe& recipe) {
+    constexpr double allowed = 0.05;
+    return !recipe.notes.empty() ||
+           std::abs(recipe.map.quads / recipe.map.wanted_quads - 1) > allowed;
+}
 
 QuadMesh finish_best_recipe(const FrameSource& frames, const Positions& reference,
                             const std::vector<DomainView>& views, Result& result,

@@ -22,6 +22,9 @@ struct SolvedRecipe {
     QuadMesh quads;  ///< vertices are points of the domain's triangles
 };
 
+/// Whether a recipe comes to far fewer or more quads than were asked for.
+bool misses_wanted_count(const SolvedRecipe& recipe);
+
 /// How a recipe is followed.
 struct RecipeSteps {
     /// Solves the recipe `result.options`: fills in field and map, returns the quads, in the

@@ -234,25 +234,18 @@ MirrorQuality judge_mirror(const SolvedSurface& surface, const SymmetryMap& map,
     return quality;
 }
 
-}  // namespace
-
-QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, const Context& context,
-                               const StageEnd& finish_stage) {
+/// The quads of a symmetric field, with a chain of edges along the stationary curve of `line`, a
+/// map like that of the run. Throws `GridMapError` where there are none, or, with the shortest
+/// edges for a unit, none of the wanted number.
+QuadMesh solve_along(const SymmetryMap& line, SnapUnit unit, const SolvedSurface& surface,
+                     Result& result, const Context& context, const StageEnd& finish_stage) {
     const FrameSource& frames = surface.frames;
     const Topology& topology = surface.topology;
     const IntrinsicMetric& metric = surface.metric;
     const Positions& reference = surface.reference;
     const SymmetryMap& map = result.symmetry->map;
-    // A line of quads runs along the curve: neither needles nor long triangles must bend it. The
-    // paper's method goes without.
-    constexpr double fairing_share = 0.25;
-    const bool is_paper = result.options.field == CrossFieldMethod::paper;
-    const SymmetryMap faired =
-        is_paper ? map
-                 : fair_stationary_curve(map, topology, metric, fairing_share * result.edge_length);
-    const LevelSplit split = insert_stationary_curve(
-        topology, metric, faired, is_paper ? SnapUnit::crossed_edge : SnapUnit::shortest_edge);
-    keep_to_curve(result.domain, split, faired, frames.triangles());
+    const LevelSplit split = insert_stationary_curve(topology, metric, line, unit);
+    keep_to_curve(result.domain, split, line, frames.triangles());
     finish_stage("symmetry");
     measure_deformation({{frames, reference, metric}}, result, context, finish_stage);
 
@@ -271,6 +264,9 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
         return map_and_extract(views, result, context, finish_stage);
     };
     const auto finish = [&](const SolvedRecipe& solved, const Context& own) {
+        if (unit == SnapUnit::shortest_edge && misses_wanted_count(solved)) {
+            throw GridMapError("parts have no room for the line between their vertices");
+        }
         QuadMesh quads = relax_on_domain(solved.domain, views, solved.map.feature_edges,
                                          solved.quads, solved.options, own);
         for (SurfacePoint& point : quads.vertex) point = point_of_input(split.mesh, point);
@@ -279,14 +275,42 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     // The two ways to symmetry come out about as good as each other before relaxation.
     QuadMesh quads = finish_best_recipe(frames, reference, views, result, {solve, finish, 3},
                                         context, finish_stage);
-    // Nor does it settle in all frames.
-    if (is_paper) return quads;
+    // The paper's method goes without.
+    if (result.options.field == CrossFieldMethod::paper) return quads;
     const RefinementSearch search(split.mesh);
     for (SurfacePoint& point : quads.vertex) point = search.find(point);
     quads = settle_on_domain(cut.domain(), views, result.map.feature_edges, quads, result.options,
                              context);
     for (SurfacePoint& point : quads.vertex) point = point_of_input(split.mesh, point);
     return quads;
+}
+
+}  // namespace
+
+QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, const Context& context,
+                               const StageEnd& finish_stage) {
+    const SymmetryMap& map = result.symmetry->map;
+    const auto solve = [&](const SymmetryMap& line, SnapUnit unit) {
+        return solve_along(line, unit, surface, result, context, finish_stage);
+    };
+    if (result.options.field == CrossFieldMethod::paper) return solve(map, SnapUnit::crossed_edge);
+    // A line of quads runs along the curve: neither needles nor long triangles must bend it.
+    constexpr double fairing_share = 0.25;
+    const SymmetryMap faired = fair_stationary_curve(map, surface.topology, surface.metric,
+                                                     fairing_share * result.edge_length);
+    const Options options = result.options;
+    const Domain domain = result.domain;
+    try {
+        return solve(faired, SnapUnit::shortest_edge);
+    } catch (const GridMapError& error) {
+        context.write_log(
+            LogLevel::info,
+            fmt::format("symmetry: {}; more of these come to lie on it", error.what()));
+    }
+    result.options = options;
+    result.domain = domain;
+    result.notes.clear();
+    return solve(map, SnapUnit::crossed_edge);
 }
 
 QuadMesh solve_mirrored_half(const SolvedSurface& surface, Result& result, const Context& context,

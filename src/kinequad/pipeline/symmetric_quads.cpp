@@ -305,7 +305,7 @@ QuadMesh solve_symmetric_field(const SolvedSurface& surface, Result& result, con
     } catch (const GridMapError& error) {
         context.write_log(
             LogLevel::info,
-            fmt::format("symmetry: {}; more of these come to lie on it", error.what()));
+            fmt::format("symmetry: {}; drawing the line to more vertices", error.what()));
     }
     result.options = options;
     result.domain = domain;

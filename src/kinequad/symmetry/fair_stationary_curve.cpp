@@ -19,11 +19,12 @@ Eigen::VectorXd diffuse(const Topology& topology, const IntrinsicMetric& metric,
     for (int t = 0; t < topology.triangle_count; ++t) {
         const auto sides = side_lengths(topology, metric, t);
         const auto cotangents = opposite_cotangents(sides);
+        const double third = triangle_area(sides) / 3;
         for (int k = 0; k < 3; ++k) {
             const int h = 3 * t + k;
             const int a = topology.origin[at(h)];
             const int b = topology.target(h);
-            area[a] += triangle_area(sides) / 3;
+            area[a] += third;
             const double weight = length * length * cotangents[at(k)] / 2;
             entries.insert(entries.end(),
                            {{a, a, weight}, {b, b, weight}, {a, b, -weight}, {b, a, -weight}});

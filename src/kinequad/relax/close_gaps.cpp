@@ -173,13 +173,16 @@ bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
 }
 
 GapsLeft SlidingQuads::close_gaps(const GapOptions& options, const Context& context) {
-    constexpr int rounds = 8;
+    const int rounds = options.only_farthest ? 32 : 8;
     constexpr double far_share = 0.8;
     release();
     parallel_for(frames_.size(), 1, context, [&](std::size_t f, std::size_t) {
         if (!frames_[f].surface) frames_[f].surface.emplace(frames_[f].input, F_);
     });
     Gaps gaps(*this, options, context);
+    const auto far_quads = [&] {
+        return options.only_farthest ? gaps.farthest_quads() : gaps.quads_beyond(far_share);
+    };
     // Goes over the vertices up to `reach` quads around those that are far, until `is_moved` moves
     // none any more; where one has moved, those up to a quad farther on have another chance.
     const auto go_over = [&](int reach, std::size_t most, const auto& is_moved) {
@@ -187,7 +190,7 @@ GapsLeft SlidingQuads::close_gaps(const GapOptions& options, const Context& cont
         bool is_any_moved = true;
         for (int round = 0; round < rounds && is_any_moved; ++round) {
             is_any_moved = false;
-            for (const int q : gaps.quads_beyond(far_share)) {
+            for (const int q : far_quads()) {
                 for (const int v : vertices_around(q, reach)) {
                     if (is_pinned_[at(v)] != 0 || is_settled[at(v)] != 0 || most == 0) continue;
                     context.check_cancelled();

@@ -113,6 +113,18 @@ std::vector<int> SlidingQuads::Gaps::quads_beyond(double distance) const {
     return quads;
 }
 
+std::vector<int> SlidingQuads::Gaps::farthest_quads() const {
+    std::vector<int> quads;
+    for (const View& view : views_) {
+        const auto quad = std::max_element(view.of_quad.begin(), view.of_quad.end());
+        const auto point = std::max_element(view.of_point.begin(), view.of_point.end());
+        quads.push_back(*quad >= *point ? static_cast<int>(quad - view.of_quad.begin())
+                                        : view.nearest[at(point - view.of_point.begin())]);
+    }
+    sort_unique(quads);
+    return quads;
+}
+
 SlidingQuads::Gaps::Surroundings SlidingQuads::Gaps::surroundings(
     const std::vector<int>& vertices) const {
     Surroundings around;

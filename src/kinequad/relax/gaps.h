@@ -25,6 +25,9 @@ public:
     /// The quads farther away than `distance` units in some frame, the farthest first.
     std::vector<int> quads_beyond(double distance) const;
 
+    /// The quads at the largest distance of some frame, by number.
+    std::vector<int> farthest_quads() const;
+
     /// What changes as some vertices move, and what is near.
     struct Surroundings {
         std::vector<int> quads;                ///< that change, the farthest first

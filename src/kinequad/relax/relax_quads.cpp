@@ -50,14 +50,15 @@ std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views, int
     return sampled;
 }
 
-/// `options.settling_frames`, references among them, then, without weight, the rest of
-/// `options.watched_frames`.
+/// `options.watched_frames`: up to `options.shaped_frames` of them, references among these, then,
+/// without weight, the rest.
 std::vector<SampledFrame> watched_frames(const std::vector<RelaxView>& views,
                                          const RelaxOptions& options) {
-    std::vector<SampledFrame> frames = sample_frames(views, options.settling_frames, 0, options);
+    const int shaped = std::min(options.shaped_frames, options.watched_frames);
+    std::vector<SampledFrame> frames = sample_frames(views, shaped, 0, options);
     for (const RelaxView& view : views) {
         const int count = view.frames.frame_count();
-        std::vector<int> known = evenly_chosen_frames(count, options.settling_frames);
+        std::vector<int> known = evenly_chosen_frames(count, std::max(shaped, 1));
         if (options.reference_frame) known.push_back(*options.reference_frame);
         for (const int frame : evenly_chosen_frames(count, options.watched_frames)) {
             if (std::find(known.begin(), known.end(), frame) != known.end()) continue;
@@ -312,26 +313,25 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
 QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxView>& views,
                                const Topology& topology, const IntrinsicMetric& metric,
                                const RelaxOptions& options, const Context& context) {
-    constexpr double shape_weight = 3;
+    constexpr double least_shape_weight = 3;
+    constexpr double shape_weight_per_frame = 1.0 / 24;
     constexpr double longest_stretch = 4;
     constexpr double held_share = 0.85;
     constexpr double settled_share = 0.85;
-    // Of what closes gaps once more at the end.
-    constexpr double closing_shape_weight = 1;
-    constexpr double least_shape_weight = 3;
     constexpr double few_far = 0.006;
-    constexpr double many_far = 0.015;
     constexpr double tightening = 0.88;
     constexpr double weight_of_distance = 0.35;
+    constexpr double farthest_share = 0.97;
+    constexpr double least_limit_share = 0.9;
     SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
                          watched_frames(views, options), static_cast<int>(views.size()));
     sliding.let_slide(options.line_edges);
     const double limit = options.distance_limit * sliding.mean_edge_length();
-    // Shapes count in fewer frames than distances do, and have to hold their own.
-    const auto gaps_within = [&](double gap_limit, double weight) {
-        return GapOptions{gap_limit, true, options.drags_patches,
-                          std::max(weight * sliding.frames_per_shaped(), least_shape_weight),
-                          longest_stretch};
+    // Distances are added up over the frames, of shapes the mean is taken.
+    const double shape_weight =
+        std::max(shape_weight_per_frame * sliding.frame_count(), least_shape_weight);
+    const auto gaps_within = [&](double gap_limit) {
+        return GapOptions{gap_limit, true, options.drags_patches, shape_weight, longest_stretch};
     };
     const auto share_of_far = [&](const GapsLeft& left) {
         const auto far = std::count_if(left.at_quads.begin(), left.at_quads.end(),
@@ -344,20 +344,27 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
                std::pow(gap_limit * left.mean_farthest, weight_of_distance);
     };
     const int between = std::max(1, options.watched_rounds / 2);
-    const GapsLeft settled = settle(
-        sliding, limit, {options.watched_rounds, between, held_share, true},
-        gaps_within(options.gap_limit, shape_weight), {"settling", 0, settled_share}, context);
+    const GapsLeft settled =
+        settle(sliding, limit, {options.watched_rounds, between, held_share, true},
+               gaps_within(options.gap_limit), {"settling", 0, settled_share}, context);
     const double settled_grade = grade(settled, options.gap_limit);
-    // What is left is worth more of the shapes, unless quads are too coarse for much of it. Where
-    // nearly nothing is, a lower limit is reached for.
-    if (share_of_far(settled) <= many_far) {
+    double farthest = settled.mean_farthest * options.gap_limit;
+    // Where nearly nothing is left, a lower limit is reached for.
+    if (share_of_far(settled) <= few_far) {
         const SlidingQuads::State before = sliding.state();
-        const double closing_limit =
-            options.gap_limit * (share_of_far(settled) <= few_far ? tightening : 1);
-        const GapsLeft closed =
-            sliding.close_gaps(gaps_within(closing_limit, closing_shape_weight), context);
-        if (grade(closed, closing_limit) >= settled_grade) sliding.restore(before);
+        const double closing_limit = tightening * options.gap_limit;
+        const GapsLeft closed = sliding.close_gaps(gaps_within(closing_limit), context);
+        if (grade(closed, closing_limit) < settled_grade) {
+            farthest = closed.mean_farthest * closing_limit;
+        } else {
+            sliding.restore(before);
+        }
     }
+    // The farthest place of a frame says how close it is; these are few.
+    GapOptions at_farthest =
+        gaps_within(std::max(farthest_share * farthest, least_limit_share * options.gap_limit));
+    at_farthest.only_farthest = true;
+    sliding.close_gaps(at_farthest, context);
     context.report_progress("settling", 1);
     return sliding.quads();
 }

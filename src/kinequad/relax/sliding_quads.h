@@ -59,6 +59,9 @@ struct GapOptions {
     /// Length beyond which no move makes the longest edge at a vertex longer in any frame with a
     /// weight, in mean lengths.
     double most_stretch = kinequad::most_stretch;
+    /// Whether of all quads that are far those alone are looked at that are the farthest in some
+    /// frame, and again until none of these comes closer.
+    bool only_farthest = false;
 };
 
 /// Distances between quads and input, in units of the limit that was asked for.
@@ -157,10 +160,8 @@ public:
     /// The cost of all quads over the frames with a weight, without that of spacing.
     double shape_cost() const;
 
-    /// Number of frames for each that has a weight.
-    double frames_per_shaped() const {
-        return static_cast<double>(frames_.size()) / static_cast<double>(shaped_frames_);
-    }
+    /// Number of all frames.
+    int frame_count() const { return static_cast<int>(frames_.size()); }
 
     /// Mean length of the quads' edges in the first reference, in units of the input.
     double mean_edge_length() const { return mean_edge_length(frames_[0]); }

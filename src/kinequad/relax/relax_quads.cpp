@@ -364,7 +364,8 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     GapOptions at_farthest =
         gaps_within(std::max(farthest_share * farthest, least_limit_share * options.gap_limit));
     at_farthest.only_farthest = true;
-    sliding.close_gaps(at_farthest, context);
+    // Twice: what moves may leave the input between the points that were looked at.
+    for (int time = 0; time < 2; ++time) sliding.close_gaps(at_farthest, context);
     context.report_progress("settling", 1);
     return sliding.quads();
 }

@@ -163,6 +163,32 @@ TEST(CloseGaps, MakesNoEdgeLongerThanIsAllowed) {
     EXPECT_LT(lefts.back(), 0.9 * lefts.front());
 }
 
+/// A spike on the boundary, where vertices stay, is the farthest for good: a lower one inside is
+/// left alone, unless it is the farthest in another frame.
+TEST(CloseGaps, MendsTheFarthestPlaceOfEveryFrameAlone) {
+    const auto spikes = [](double at_boundary) {
+        return landscape(40, [=](double x, double y) {
+            const auto cone = [&](double height, double u, double v) {
+                return height * std::max(0.0, 1 - std::hypot(x - u, y - v) / 0.06);
+            };
+            return cone(at_boundary, 0.45, 0) + cone(0.1, 0.75, 0.75);
+        });
+    };
+    const Grid grid(spikes(0.3), 10, 0);
+    const Positions without = spikes(0).V;
+    constexpr std::size_t inner_quad = 77;
+    const auto left_inside = [&](std::vector<SampledFrame> frames, bool only_farthest) {
+        SlidingQuads sliding = grid.sliding(std::move(frames));
+        const GapOptions options{.limit = 0.3, .is_rough = true, .only_farthest = only_farthest};
+        return sliding.close_gaps(options, {}).at_quads[inner_quad];
+    };
+    const double mended = left_inside({{grid.mesh.V, 1}}, false);
+    const double left_alone = left_inside({{grid.mesh.V, 1}}, true);
+    EXPECT_LT(mended, 0.7 * left_alone);
+    EXPECT_NEAR(left_alone, 0.1 / 0.3 * 10, 0.1);
+    EXPECT_LT(left_inside({{grid.mesh.V, 1}, {without, 1}}, true), 0.7 * left_alone);
+}
+
 /// Cones of many heights between the vertices of the grid.
 TEST(CloseGaps, DraggedPatchesComeCloserThanVerticesAlone) {
     int closer = 0;

@@ -313,8 +313,7 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
 QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxView>& views,
                                const Topology& topology, const IntrinsicMetric& metric,
                                const RelaxOptions& options, const Context& context) {
-    constexpr double least_shape_weight = 3;
-    constexpr double shape_weight_per_frame = 1.0 / 24;
+    constexpr double shape_weight = 3;
     constexpr double longest_stretch = 4;
     constexpr double held_share = 0.85;
     constexpr double settled_share = 0.85;
@@ -327,12 +326,14 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
                          watched_frames(views, options), static_cast<int>(views.size()));
     sliding.let_slide(options.line_edges);
     const double limit = options.distance_limit * sliding.mean_edge_length();
-    // Distances are added up over the frames, of shapes the mean is taken.
-    const double shape_weight =
-        std::max(shape_weight_per_frame * sliding.frame_count(), least_shape_weight);
-    const auto gaps_within = [&](double gap_limit) {
-        return GapOptions{gap_limit, true, options.drags_patches, shape_weight, longest_stretch};
+    // Where shapes count in fewer frames than distances do, they have to hold their own: above all
+    // at first, when most moves.
+    const double frames_per_shaped = sliding.frames_per_shaped();
+    const auto gaps_within = [&](double gap_limit, double weight) {
+        return GapOptions{gap_limit, true, options.drags_patches, weight, longest_stretch};
     };
+    const double closing_weight = shape_weight * frames_per_shaped;
+    const double settling_weight = closing_weight * frames_per_shaped;
     const auto share_of_far = [&](const GapsLeft& left) {
         const auto far = std::count_if(left.at_quads.begin(), left.at_quads.end(),
                                        [](double distance) { return distance > 1; });
@@ -344,16 +345,17 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
                std::pow(gap_limit * left.mean_farthest, weight_of_distance);
     };
     const int between = std::max(1, options.watched_rounds / 2);
-    const GapsLeft settled =
-        settle(sliding, limit, {options.watched_rounds, between, held_share, true},
-               gaps_within(options.gap_limit), {"settling", 0, settled_share}, context);
+    const GapsLeft settled = settle(
+        sliding, limit, {options.watched_rounds, between, held_share, true},
+        gaps_within(options.gap_limit, settling_weight), {"settling", 0, settled_share}, context);
     const double settled_grade = grade(settled, options.gap_limit);
     double farthest = settled.mean_farthest * options.gap_limit;
     // Where nearly nothing is left, a lower limit is reached for.
     if (share_of_far(settled) <= few_far) {
         const SlidingQuads::State before = sliding.state();
         const double closing_limit = tightening * options.gap_limit;
-        const GapsLeft closed = sliding.close_gaps(gaps_within(closing_limit), context);
+        const GapsLeft closed =
+            sliding.close_gaps(gaps_within(closing_limit, closing_weight), context);
         if (grade(closed, closing_limit) < settled_grade) {
             farthest = closed.mean_farthest * closing_limit;
         } else {
@@ -361,8 +363,8 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
         }
     }
     // The farthest place of a frame says how close it is; these are few.
-    GapOptions at_farthest =
-        gaps_within(std::max(farthest_share * farthest, least_limit_share * options.gap_limit));
+    GapOptions at_farthest = gaps_within(
+        std::max(farthest_share * farthest, least_limit_share * options.gap_limit), closing_weight);
     at_farthest.only_farthest = true;
     // Twice: what moves may leave the input between the points that were looked at.
     for (int time = 0; time < 2; ++time) sliding.close_gaps(at_farthest, context);

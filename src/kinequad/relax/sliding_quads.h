@@ -160,8 +160,10 @@ public:
     /// The cost of all quads over the frames with a weight, without that of spacing.
     double shape_cost() const;
 
-    /// Number of all frames.
-    int frame_count() const { return static_cast<int>(frames_.size()); }
+    /// Number of frames for each that has a weight.
+    double frames_per_shaped() const {
+        return static_cast<double>(frames_.size()) / static_cast<double>(shaped_frames_);
+    }
 
     /// Mean length of the quads' edges in the first reference, in units of the input.
     double mean_edge_length() const { return mean_edge_length(frames_[0]); }

@@ -58,8 +58,11 @@ SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
         look_at_quads(f, context);
         look_at_points(f, context);
     });
-    if (!has_more_points_) return;
-    choose_more_points();
+    if (!is_rough_ || (has_close_points_ && !options.only_farthest)) return;
+    // There the middle of an edge or a triangle may be the farthest.
+    const std::vector<char> is_far = far_vertices();
+    if (!has_close_points_) choose_points_on_edges(close_spacing, is_far);
+    if (options.only_farthest) choose_middles(is_far);
     parallel_for(views_.size(), 1, context,
                  [&](std::size_t f, std::size_t) { look_at_points(f, context); });
 }
@@ -278,7 +281,7 @@ void SlidingQuads::Gaps::keep(const Surroundings& around, std::size_t f, const L
 void SlidingQuads::Gaps::choose_points() {
     const Topology& topology = sliding_.topology_;
     for (int v = 0; v < topology.vertex_count; ++v) {
-        if (topology.vertex_half_edge[at(v)] >= 0) points_.push_back({v, v, 0});
+        if (topology.vertex_half_edge[at(v)] >= 0) points_.push_back({v, v, v, 0, 0});
     }
     const std::vector<char> all(at(topology.vertex_count), 1);
     const std::size_t vertices = points_.size();
@@ -288,19 +291,18 @@ void SlidingQuads::Gaps::choose_points() {
         points_.resize(vertices);
     }
     choose_points_on_edges(spacing, all);
-    has_more_points_ = is_rough_;
+    has_close_points_ = false;
 }
 
-/// Points closer to one another on edges with an end that is not near in some frame: there the
-/// middle of an edge may be the farthest.
-void SlidingQuads::Gaps::choose_more_points() {
+/// The vertices that are not near in some frame (v).
+std::vector<char> SlidingQuads::Gaps::far_vertices() const {
     std::vector<char> is_far(at(sliding_.topology_.vertex_count), 0);
     for (std::size_t x = 0; x < points_.size() && points_[x].a == points_[x].b; ++x) {
         is_far[at(points_[x].a)] = std::any_of(views_.begin(), views_.end(), [&](const View& view) {
             return square(view.of_point[x]) > view.squared_near;
         });
     }
-    choose_points_on_edges(close_spacing, is_far);
+    return is_far;
 }
 
 /// Points that part edges with an end in `is_wanted` (v) into pieces of at most `longest` mean
@@ -321,8 +323,28 @@ void SlidingQuads::Gaps::choose_points_on_edges(double longest,
         }
         const int parts = static_cast<int>(std::min(most_parts, std::ceil(length / longest)));
         for (int i = 1; i < parts; ++i) {
-            points_.push_back({a, b, static_cast<double>(i) / parts});
+            points_.push_back({a, b, a, static_cast<double>(i) / parts, 0});
         }
+    }
+}
+
+/// The middles of triangles with a corner in `is_wanted` (v) that are not small for the quads.
+void SlidingQuads::Gaps::choose_middles(const std::vector<char>& is_wanted) {
+    const Triangles& F = sliding_.F_;
+    const auto is_long = [&](int a, int b) {
+        return std::any_of(
+            sliding_.frames_.begin(), sliding_.frames_.end(), [&](const Frame& frame) {
+                const double length = (frame.input.row(a) - frame.input.row(b)).norm();
+                return length > close_spacing * frame.mean_edge;
+            });
+    };
+    for (Eigen::Index t = 0; t < F.rows(); ++t) {
+        const int a = F(t, 0);
+        const int b = F(t, 1);
+        const int c = F(t, 2);
+        if (!is_wanted[at(a)] && !is_wanted[at(b)] && !is_wanted[at(c)]) continue;
+        if (!is_long(a, b) && !is_long(b, c) && !is_long(c, a)) continue;
+        points_.push_back({a, b, c, 1. / 3, 1. / 3});
     }
 }
 

@@ -87,6 +87,37 @@ TEST(CloseGaps, FindsTheFarthestPlaceInsideAQuadWhenRough) {
     }
 }
 
+/// So is the place of the input that is farthest from the quads, inside a triangle, where the
+/// farthest alone are looked at.
+TEST(CloseGaps, FindsTheFarthestPlaceInsideATriangleOfTheInput) {
+    constexpr double radius = 0.2;
+    Grid grid(landscape(8, flat), 40, 0);
+    for (const Eigen::Index t : {53, 54, 72, 73}) {
+        Vector3 middle = Vector3::Zero();
+        for (const int v : grid.mesh.F.row(t)) middle += grid.mesh.V.row(v).transpose() / 3;
+        // The quads leave out a disc there, whose rim stays.
+        Grid holed = grid;
+        Eigen::Index left = 0;
+        for (Eigen::Index q = 0; q < grid.quads.Q.rows(); ++q) {
+            const QuadCorners p = grid.corners(grid.quads, grid.mesh.V, q);
+            if (((p[0] + p[2]) / 2 - middle).norm() < radius) continue;
+            holed.quads.Q.row(left++) = grid.quads.Q.row(q);
+        }
+        holed.quads.Q.conservativeResize(left, 4);
+        Positions places(static_cast<Eigen::Index>(holed.quads.vertex.size()), 3);
+        for (Eigen::Index v = 0; v < places.rows(); ++v) {
+            places.row(v) = position_of(holed.quads.vertex[static_cast<std::size_t>(v)],
+                                        grid.mesh.V, grid.mesh.F);
+        }
+        const ClosestPoints quads(places, cut_quads(holed.quads.Q, places));
+        const double farthest = std::sqrt(quads.find(middle).squared_distance);
+        SlidingQuads sliding = holed.sliding({{grid.mesh.V, 1}});
+        const double unit = 4 * sliding.mean_edge_length();
+        const GapOptions options{.limit = 4, .is_rough = true, .only_farthest = true};
+        EXPECT_NEAR(unit * largest(sliding.close_gaps(options, {}).at_quads), farthest, 0.012) << t;
+    }
+}
+
 /// What is near is told apart less well, but what is far is as far.
 TEST(CloseGaps, TellsFarPlacesAsWellWhenRough) {
     int tip = -1;

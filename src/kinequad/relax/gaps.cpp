@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <utility>
 
 #include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
@@ -26,6 +27,11 @@ constexpr double told_apart = 0.08;
 constexpr double spacing = 0.7;
 constexpr double close_spacing = 0.35;
 constexpr std::size_t most_close_points = 2'000'000;
+
+/// Between points inside triangles, in mean lengths of the quads' edges, and from what distance of
+/// a corner on there are any, in units.
+constexpr double inner_spacing = 0.12;
+constexpr double worth_points_inside = 0.7;
 
 /// Where places are compared, the frames with the largest distances are enough at first.
 constexpr std::size_t compared_frames = 3;
@@ -59,10 +65,11 @@ SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
         look_at_points(f, context);
     });
     if (!is_rough_ || (has_close_points_ && !options.only_farthest)) return;
-    // There the middle of an edge or a triangle may be the farthest.
-    const std::vector<char> is_far = far_vertices();
-    if (!has_close_points_) choose_points_on_edges(close_spacing, is_far);
-    if (options.only_farthest) choose_middles(is_far);
+    // There the middle of an edge may be the farthest, or a point inside a triangle.
+    if (!has_close_points_) {
+        choose_points_on_edges(close_spacing, vertices_beyond(roughly_near_share / options.limit));
+    }
+    if (options.only_farthest) choose_points_inside(vertices_beyond(worth_points_inside));
     parallel_for(views_.size(), 1, context,
                  [&](std::size_t f, std::size_t) { look_at_points(f, context); });
 }
@@ -294,15 +301,15 @@ void SlidingQuads::Gaps::choose_points() {
     has_close_points_ = false;
 }
 
-/// The vertices that are not near in some frame (v).
-std::vector<char> SlidingQuads::Gaps::far_vertices() const {
-    std::vector<char> is_far(at(sliding_.topology_.vertex_count), 0);
+/// The vertices that are farther than `distance` units in some frame (v).
+std::vector<char> SlidingQuads::Gaps::vertices_beyond(double distance) const {
+    std::vector<char> is_beyond(at(sliding_.topology_.vertex_count), 0);
     for (std::size_t x = 0; x < points_.size() && points_[x].a == points_[x].b; ++x) {
-        is_far[at(points_[x].a)] = std::any_of(views_.begin(), views_.end(), [&](const View& view) {
-            return square(view.of_point[x]) > view.squared_near;
-        });
+        is_beyond[at(points_[x].a)] =
+            std::any_of(views_.begin(), views_.end(),
+                        [&](const View& view) { return view.of_point[x] > distance * view.unit; });
     }
-    return is_far;
+    return is_beyond;
 }
 
 /// Points that part edges with an end in `is_wanted` (v) into pieces of at most `longest` mean
@@ -328,23 +335,33 @@ void SlidingQuads::Gaps::choose_points_on_edges(double longest,
     }
 }
 
-/// The middles of triangles with a corner in `is_wanted` (v) that are not small for the quads.
-void SlidingQuads::Gaps::choose_middles(const std::vector<char>& is_wanted) {
+/// Points that part triangles with a corner in `is_wanted` (v) into ones with sides of at most
+/// `inner_spacing` mean lengths of the quads' edges in all frames.
+void SlidingQuads::Gaps::choose_points_inside(const std::vector<char>& is_wanted) {
+    constexpr double most_parts = 8;
     const Triangles& F = sliding_.F_;
-    const auto is_long = [&](int a, int b) {
-        return std::any_of(
-            sliding_.frames_.begin(), sliding_.frames_.end(), [&](const Frame& frame) {
-                const double length = (frame.input.row(a) - frame.input.row(b)).norm();
-                return length > close_spacing * frame.mean_edge;
-            });
-    };
     for (Eigen::Index t = 0; t < F.rows(); ++t) {
-        const int a = F(t, 0);
-        const int b = F(t, 1);
-        const int c = F(t, 2);
-        if (!is_wanted[at(a)] && !is_wanted[at(b)] && !is_wanted[at(c)]) continue;
-        if (!is_long(a, b) && !is_long(b, c) && !is_long(c, a)) continue;
-        points_.push_back({a, b, c, 1. / 3, 1. / 3});
+        const std::array corner{F(t, 0), F(t, 1), F(t, 2)};
+        if (std::none_of(corner.begin(), corner.end(),
+                         [&](int v) { return is_wanted[at(v)] != 0; }))
+            continue;
+        double longest = 0;
+        for (const Frame& frame : sliding_.frames_) {
+            for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {2, 0}}) {
+                const double length =
+                    (frame.input.row(corner[at(a)]) - frame.input.row(corner[at(b)])).norm();
+                longest = std::max(longest, length / frame.mean_edge);
+            }
+        }
+        const int parts =
+            static_cast<int>(std::min(most_parts, std::ceil(longest / inner_spacing)));
+        for (int i = 0; i <= parts; ++i) {
+            for (int j = 0; j <= parts - i; ++j) {
+                if (i == parts || j == parts || i + j == 0) continue;
+                points_.push_back({corner[0], corner[1], corner[2], static_cast<double>(i) / parts,
+                                   static_cast<double>(j) / parts});
+            }
+        }
     }
 }
 

@@ -104,9 +104,9 @@ private:
     double squared_distance_with(double misfit) const;
     double shape_cost(const Surroundings& around) const;
     void choose_points();
-    std::vector<char> far_vertices() const;
+    std::vector<char> vertices_beyond(double distance) const;
     void choose_points_on_edges(double longest, const std::vector<char>& is_wanted);
-    void choose_middles(const std::vector<char>& is_wanted);
+    void choose_points_inside(const std::vector<char>& is_wanted);
     void choose_sides();
     void look_at_quads(std::size_t f, const Context& context);
     void look_at_points(std::size_t f, const Context& context);

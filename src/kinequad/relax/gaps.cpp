@@ -65,11 +65,13 @@ SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
         look_at_points(f, context);
     });
     if (!is_rough_ || (has_close_points_ && !options.only_farthest)) return;
-    // There the middle of an edge may be the farthest, or a point inside a triangle.
+    // There the middle of an edge may be the farthest, or, where points on edges leave no more than
+    // that to find, one inside a triangle.
     if (!has_close_points_) {
         choose_points_on_edges(close_spacing, vertices_beyond(roughly_near_share / options.limit));
+    } else {
+        choose_points_inside(vertices_beyond(worth_points_inside));
     }
-    if (options.only_farthest) choose_points_inside(vertices_beyond(worth_points_inside));
     parallel_for(views_.size(), 1, context,
                  [&](std::size_t f, std::size_t) { look_at_points(f, context); });
 }

@@ -87,37 +87,6 @@ TEST(CloseGaps, FindsTheFarthestPlaceInsideAQuadWhenRough) {
     }
 }
 
-/// So is the place of the input that is farthest from the quads, inside a triangle, where the
-/// farthest alone are looked at.
-TEST(CloseGaps, FindsTheFarthestPlaceInsideATriangleOfTheInput) {
-    constexpr double radius = 0.2;
-    Grid grid(landscape(8, flat), 40, 0);
-    for (const Eigen::Index t : {53, 54, 72, 73}) {
-        Vector3 middle = Vector3::Zero();
-        for (const int v : grid.mesh.F.row(t)) middle += grid.mesh.V.row(v).transpose() / 3;
-        // The quads leave out a disc there, whose rim stays.
-        Grid holed = grid;
-        Eigen::Index left = 0;
-        for (Eigen::Index q = 0; q < grid.quads.Q.rows(); ++q) {
-            const QuadCorners p = grid.corners(grid.quads, grid.mesh.V, q);
-            if (((p[0] + p[2]) / 2 - middle).norm() < radius) continue;
-            holed.quads.Q.row(left++) = grid.quads.Q.row(q);
-        }
-        holed.quads.Q.conservativeResize(left, 4);
-        Positions places(static_cast<Eigen::Index>(holed.quads.vertex.size()), 3);
-        for (Eigen::Index v = 0; v < places.rows(); ++v) {
-            places.row(v) = position_of(holed.quads.vertex[static_cast<std::size_t>(v)],
-                                        grid.mesh.V, grid.mesh.F);
-        }
-        const ClosestPoints quads(places, cut_quads(holed.quads.Q, places));
-        const double farthest = std::sqrt(quads.find(middle).squared_distance);
-        SlidingQuads sliding = holed.sliding({{grid.mesh.V, 1}});
-        const double unit = 4 * sliding.mean_edge_length();
-        const GapOptions options{.limit = 4, .is_rough = true, .only_farthest = true};
-        EXPECT_NEAR(unit * largest(sliding.close_gaps(options, {}).at_quads), farthest, 0.012) << t;
-    }
-}
-
 /// What is near is told apart less well, but what is far is as far.
 TEST(CloseGaps, TellsFarPlacesAsWellWhenRough) {
     int tip = -1;
@@ -192,32 +161,6 @@ TEST(CloseGaps, MakesNoEdgeLongerThanIsAllowed) {
         EXPECT_LE(longest_edge(sliding.quads()) / mean, std::max(before, stretch) + 1e-9);
     }
     EXPECT_LT(lefts.back(), 0.9 * lefts.front());
-}
-
-/// A spike on the boundary, where vertices stay, is the farthest for good: a lower one inside is
-/// left alone, unless it is the farthest in another frame.
-TEST(CloseGaps, MendsTheFarthestPlaceOfEveryFrameAlone) {
-    const auto spikes = [](double at_boundary) {
-        return landscape(40, [=](double x, double y) {
-            const auto cone = [&](double height, double u, double v) {
-                return height * std::max(0.0, 1 - std::hypot(x - u, y - v) / 0.06);
-            };
-            return cone(at_boundary, 0.45, 0) + cone(0.1, 0.75, 0.75);
-        });
-    };
-    const Grid grid(spikes(0.3), 10, 0);
-    const Positions without = spikes(0).V;
-    constexpr std::size_t inner_quad = 77;
-    const auto left_inside = [&](std::vector<SampledFrame> frames, bool only_farthest) {
-        SlidingQuads sliding = grid.sliding(std::move(frames));
-        const GapOptions options{.limit = 0.3, .is_rough = true, .only_farthest = only_farthest};
-        return sliding.close_gaps(options, {}).at_quads[inner_quad];
-    };
-    const double mended = left_inside({{grid.mesh.V, 1}}, false);
-    const double left_alone = left_inside({{grid.mesh.V, 1}}, true);
-    EXPECT_LT(mended, 0.7 * left_alone);
-    EXPECT_NEAR(left_alone, 0.1 / 0.3 * 10, 0.1);
-    EXPECT_LT(left_inside({{grid.mesh.V, 1}, {without, 1}}, true), 0.7 * left_alone);
 }
 
 /// Cones of many heights between the vertices of the grid.

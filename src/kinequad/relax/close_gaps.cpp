@@ -39,22 +39,17 @@ std::vector<Vector3> moves_in_plane(const Eigen::Matrix<double, 3, 2>& tangents)
 /// Returns whether there is such a place.
 bool SlidingQuads::close_gaps_at(int v, Gaps& gaps, const Context& context) {
     static const Steps steps{6, {0.4, 0.16, 0.06}, true};
-    Gaps::Surroundings around = gaps.surroundings({v});
+    const Gaps::Surroundings around = gaps.surroundings({v});
     const SurfacePoint before = quads_.vertex[at(v)];
     const double least_jacobian = std::min(least_jacobian_around(v), least_closing_jacobian);
     const double longest = gaps.longest_allowed(longest_edge(v));
-    for (int attempt = 0; attempt < gaps.attempts(); ++attempt) {
-        const bool is_moved = search_around(v, steps, [&](double least) {
-            if (least_jacobian_around(v) < least_jacobian || longest_edge(v) > longest)
-                return least;
-            return gaps.rough_cost(around, least);
-        });
-        if (!is_moved) return false;
-        const Gaps::Verdict verdict = gaps.take_if_better(around, context);
-        if (verdict == Gaps::Verdict::taken) return true;
-        place(v, before);
-        if (verdict == Gaps::Verdict::no_frame_helps) break;
-    }
+    const bool is_moved = search_around(v, steps, [&](double least) {
+        if (least_jacobian_around(v) < least_jacobian || longest_edge(v) > longest) return least;
+        return gaps.rough_cost(around, least);
+    });
+    if (!is_moved) return false;
+    if (gaps.take_if_better(around, context)) return true;
+    place(v, before);
     return false;
 }
 
@@ -131,7 +126,7 @@ private:
 /// As `close_gaps_at`, for `v` and the patch around it.
 bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
     Patch patch(*this, v);
-    Gaps::Surroundings around = gaps.surroundings(patch.vertices());
+    const Gaps::Surroundings around = gaps.surroundings(patch.vertices());
     const auto least_jacobian = [&] {
         double least = 1;
         for (const int q : around.quads) least = std::min(least, least_jacobian_of(q));
@@ -149,40 +144,33 @@ bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
 
     const Frame& frame = frames_[around.frames.front()];
     const double size = shortest_edge(v) * frame.mean_edge / frames_[0].mean_edge;
-    const std::vector<Vector3> moves =
-        moves_in_plane(embedding(quads_.vertex[at(v)].triangle, frame.input));
-    for (int attempt = 0; attempt < gaps.attempts(); ++attempt) {
-        double least_cost = gaps.rough_cost(around, std::numeric_limits<double>::infinity());
-        std::vector<SurfacePoint> best;
-        for (const Vector3& move : moves) {
-            patch.move(size * move, frame.input);
-            if (!is_allowed()) continue;
-            const double cost = gaps.rough_cost(around, least_cost);
-            if (cost >= least_cost) continue;
-            least_cost = cost;
-            best = patch.places();
-        }
-        if (!best.empty()) patch.put(best);
-        const Gaps::Verdict verdict =
-            best.empty() ? Gaps::Verdict::no_frame_helps : gaps.take_if_better(around, context);
-        if (verdict == Gaps::Verdict::taken) return true;
-        patch.put_back();
-        if (verdict == Gaps::Verdict::no_frame_helps) break;
+    double least_cost = gaps.rough_cost(around, std::numeric_limits<double>::infinity());
+    std::vector<SurfacePoint> best;
+    for (const Vector3& move :
+         moves_in_plane(embedding(quads_.vertex[at(v)].triangle, frame.input))) {
+        patch.move(size * move, frame.input);
+        if (!is_allowed()) continue;
+        const double cost = gaps.rough_cost(around, least_cost);
+        if (cost >= least_cost) continue;
+        least_cost = cost;
+        best = patch.places();
     }
+    if (!best.empty()) {
+        patch.put(best);
+        if (gaps.take_if_better(around, context)) return true;
+    }
+    patch.put_back();
     return false;
 }
 
 GapsLeft SlidingQuads::close_gaps(const GapOptions& options, const Context& context) {
-    const int rounds = options.only_farthest ? 32 : 8;
+    constexpr int rounds = 8;
     constexpr double far_share = 0.8;
     release();
     parallel_for(frames_.size(), 1, context, [&](std::size_t f, std::size_t) {
         if (!frames_[f].surface) frames_[f].surface.emplace(frames_[f].input, F_);
     });
     Gaps gaps(*this, options, context);
-    const auto far_quads = [&] {
-        return options.only_farthest ? gaps.farthest_quads() : gaps.quads_beyond(far_share);
-    };
     // Goes over the vertices up to `reach` quads around those that are far, until `is_moved` moves
     // none any more; where one has moved, those up to a quad farther on have another chance.
     const auto go_over = [&](int reach, std::size_t most, const auto& is_moved) {
@@ -190,7 +178,7 @@ GapsLeft SlidingQuads::close_gaps(const GapOptions& options, const Context& cont
         bool is_any_moved = true;
         for (int round = 0; round < rounds && is_any_moved; ++round) {
             is_any_moved = false;
-            for (const int q : far_quads()) {
+            for (const int q : gaps.quads_beyond(far_share)) {
                 for (const int v : vertices_around(q, reach)) {
                     if (is_pinned_[at(v)] != 0 || is_settled[at(v)] != 0 || most == 0) continue;
                     context.check_cancelled();

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
-#include <utility>
 
 #include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
@@ -28,12 +27,7 @@ constexpr double spacing = 0.7;
 constexpr double close_spacing = 0.35;
 constexpr std::size_t most_close_points = 2'000'000;
 
-/// Between points inside triangles, in mean lengths of the quads' edges, and from what distance of
-/// a corner on there are any, in units.
-constexpr double inner_spacing = 0.12;
-constexpr double worth_points_inside = 0.7;
-
-/// Where places are compared, the frames with the largest distances are enough at first.
+/// Where places are compared, the frames with the largest distances are enough.
 constexpr std::size_t compared_frames = 3;
 
 double square(double x) { return x * x; }
@@ -64,14 +58,8 @@ SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
         look_at_quads(f, context);
         look_at_points(f, context);
     });
-    if (!is_rough_ || (has_close_points_ && !options.only_farthest)) return;
-    // There the middle of an edge may be the farthest, or, where points on edges leave no more than
-    // that to find, one inside a triangle.
-    if (!has_close_points_) {
-        choose_points_on_edges(close_spacing, vertices_beyond(roughly_near_share / options.limit));
-    } else {
-        choose_points_inside(vertices_beyond(worth_points_inside));
-    }
+    if (!has_more_points_) return;
+    choose_more_points();
     parallel_for(views_.size(), 1, context,
                  [&](std::size_t f, std::size_t) { look_at_points(f, context); });
 }
@@ -125,18 +113,6 @@ std::vector<int> SlidingQuads::Gaps::quads_beyond(double distance) const {
     return quads;
 }
 
-std::vector<int> SlidingQuads::Gaps::farthest_quads() const {
-    std::vector<int> quads;
-    for (const View& view : views_) {
-        const auto quad = std::max_element(view.of_quad.begin(), view.of_quad.end());
-        const auto point = std::max_element(view.of_point.begin(), view.of_point.end());
-        quads.push_back(*quad >= *point ? static_cast<int>(quad - view.of_quad.begin())
-                                        : view.nearest[at(point - view.of_point.begin())]);
-    }
-    sort_unique(quads);
-    return quads;
-}
-
 SlidingQuads::Gaps::Surroundings SlidingQuads::Gaps::surroundings(
     const std::vector<int>& vertices) const {
     Surroundings around;
@@ -171,9 +147,8 @@ SlidingQuads::Gaps::Surroundings SlidingQuads::Gaps::surroundings(
     }
     std::sort(order.begin(), order.end());
     for (const auto& [negative, f] : order) around.frames.push_back(f);
-    around.compared = std::min(compared_frames, around.frames.size());
     // The farthest first: most places that are no better show it there.
-    for (std::size_t i = 0; i < around.compared; ++i) {
+    for (std::size_t i = 0; i < std::min(compared_frames, around.frames.size()); ++i) {
         const std::size_t f = around.frames[i];
         const std::vector<double>& of_point = views_[f].of_point;
         std::sort(around.points[f].begin(), around.points[f].end(), [&](int x, int y) {
@@ -193,7 +168,7 @@ SlidingQuads::Gaps::Surroundings SlidingQuads::Gaps::surroundings(
 double SlidingQuads::Gaps::rough_cost(const Surroundings& around, double enough) const {
     const double shape = shape_cost(around);
     double misfit = 0;
-    for (std::size_t i = 0; i < around.compared; ++i) {
+    for (std::size_t i = 0; i < std::min(compared_frames, views_.size()); ++i) {
         const double left = enough - shape - misfit;
         if (left <= 0) break;
         const std::size_t f = around.frames[i];
@@ -205,29 +180,15 @@ double SlidingQuads::Gaps::rough_cost(const Surroundings& around, double enough)
     return shape + misfit;
 }
 
-SlidingQuads::Gaps::Verdict SlidingQuads::Gaps::take_if_better(Surroundings& around,
-                                                               const Context& context) {
+bool SlidingQuads::Gaps::take_if_better(const Surroundings& around, const Context& context) {
     // Most places that are no better show it in the frames that come first.
     constexpr std::size_t frames_together = 16;
     constexpr std::size_t frames_of_thread = 4;
     const double shape = shape_cost(around);
     double misfit = 0;
     std::vector<Look> seen;
-    const auto of = [&](std::size_t i) {
-        return seen[i].farthest / square(views_[around.frames[i]].unit);
-    };
-    const auto compare_in_worst = [&] {
-        std::size_t worst = around.compared;
-        for (std::size_t i = worst; i < seen.size(); ++i) {
-            if (of(i) > of(worst)) worst = i;
-        }
-        if (worst >= seen.size()) return Verdict::no_frame_helps;
-        std::swap(around.frames[worst], around.frames[around.compared]);
-        ++around.compared;
-        return Verdict::needs_a_frame;
-    };
     while (seen.size() < views_.size()) {
-        if (shape + misfit >= around.cost) break;
+        if (shape + misfit >= around.cost) return false;
         const std::size_t first = seen.size();
         seen.resize(std::min(views_.size(), first + frames_together));
         parallel_for(seen.size() - first, frames_of_thread, context,
@@ -237,12 +198,12 @@ SlidingQuads::Gaps::Verdict SlidingQuads::Gaps::take_if_better(Surroundings& aro
                          }
                      });
         for (std::size_t i = first; i < seen.size(); ++i) {
-            misfit += misfit_of(of(i));
+            misfit += misfit_of(seen[i].farthest / square(views_[around.frames[i]].unit));
         }
     }
-    if (shape + misfit >= around.cost) return compare_in_worst();
+    if (shape + misfit >= around.cost) return false;
     for (std::size_t i = 0; i < seen.size(); ++i) keep(around, around.frames[i], seen[i]);
-    return Verdict::taken;
+    return true;
 }
 
 /// What the shape of the quads that change counts beside their distances from the input.
@@ -290,7 +251,7 @@ void SlidingQuads::Gaps::keep(const Surroundings& around, std::size_t f, const L
 void SlidingQuads::Gaps::choose_points() {
     const Topology& topology = sliding_.topology_;
     for (int v = 0; v < topology.vertex_count; ++v) {
-        if (topology.vertex_half_edge[at(v)] >= 0) points_.push_back({v, v, v, 0, 0});
+        if (topology.vertex_half_edge[at(v)] >= 0) points_.push_back({v, v, 0});
     }
     const std::vector<char> all(at(topology.vertex_count), 1);
     const std::size_t vertices = points_.size();
@@ -300,18 +261,19 @@ void SlidingQuads::Gaps::choose_points() {
         points_.resize(vertices);
     }
     choose_points_on_edges(spacing, all);
-    has_close_points_ = false;
+    has_more_points_ = is_rough_;
 }
 
-/// The vertices that are farther than `distance` units in some frame (v).
-std::vector<char> SlidingQuads::Gaps::vertices_beyond(double distance) const {
-    std::vector<char> is_beyond(at(sliding_.topology_.vertex_count), 0);
+/// Points closer to one another on edges with an end that is not near in some frame: there the
+/// middle of an edge may be the farthest.
+void SlidingQuads::Gaps::choose_more_points() {
+    std::vector<char> is_far(at(sliding_.topology_.vertex_count), 0);
     for (std::size_t x = 0; x < points_.size() && points_[x].a == points_[x].b; ++x) {
-        is_beyond[at(points_[x].a)] =
-            std::any_of(views_.begin(), views_.end(),
-                        [&](const View& view) { return view.of_point[x] > distance * view.unit; });
+        is_far[at(points_[x].a)] = std::any_of(views_.begin(), views_.end(), [&](const View& view) {
+            return square(view.of_point[x]) > view.squared_near;
+        });
     }
-    return is_beyond;
+    choose_points_on_edges(close_spacing, is_far);
 }
 
 /// Points that part edges with an end in `is_wanted` (v) into pieces of at most `longest` mean
@@ -332,37 +294,7 @@ void SlidingQuads::Gaps::choose_points_on_edges(double longest,
         }
         const int parts = static_cast<int>(std::min(most_parts, std::ceil(length / longest)));
         for (int i = 1; i < parts; ++i) {
-            points_.push_back({a, b, a, static_cast<double>(i) / parts, 0});
-        }
-    }
-}
-
-/// Points that part triangles with a corner in `is_wanted` (v) into ones with sides of at most
-/// `inner_spacing` mean lengths of the quads' edges in all frames.
-void SlidingQuads::Gaps::choose_points_inside(const std::vector<char>& is_wanted) {
-    constexpr double most_parts = 8;
-    const Triangles& F = sliding_.F_;
-    for (Eigen::Index t = 0; t < F.rows(); ++t) {
-        const std::array corner{F(t, 0), F(t, 1), F(t, 2)};
-        if (std::none_of(corner.begin(), corner.end(),
-                         [&](int v) { return is_wanted[at(v)] != 0; }))
-            continue;
-        double longest = 0;
-        for (const Frame& frame : sliding_.frames_) {
-            for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {2, 0}}) {
-                const double length =
-                    (frame.input.row(corner[at(a)]) - frame.input.row(corner[at(b)])).norm();
-                longest = std::max(longest, length / frame.mean_edge);
-            }
-        }
-        const int parts =
-            static_cast<int>(std::min(most_parts, std::ceil(longest / inner_spacing)));
-        for (int i = 0; i <= parts; ++i) {
-            for (int j = 0; j <= parts - i; ++j) {
-                if (i == parts || j == parts || i + j == 0) continue;
-                points_.push_back({corner[0], corner[1], corner[2], static_cast<double>(i) / parts,
-                                   static_cast<double>(j) / parts});
-            }
+            points_.push_back({a, b, static_cast<double>(i) / parts});
         }
     }
 }

@@ -25,59 +25,37 @@ public:
     /// The quads farther away than `distance` units in some frame, the farthest first.
     std::vector<int> quads_beyond(double distance) const;
 
-    /// The quads at the largest distance of some frame, by number.
-    std::vector<int> farthest_quads() const;
-
     /// What changes as some vertices move, and what is near.
     struct Surroundings {
         std::vector<int> quads;                ///< that change, the farthest first
         std::vector<int> patch;                ///< these, by number, then the ones around them
         std::vector<std::vector<int>> points;  ///< f: of the input, nearest to those that change
         std::vector<std::size_t> frames;       ///< the one with the largest distance first
-        std::size_t compared = 0;              ///< number of the first of them that places are
-                                               ///< compared in
         double cost = 0;                       ///< see below, before anything moves
     };
     Surroundings surroundings(const std::vector<int>& vertices) const;
 
     /// What is to become less: the sum of the powers of the largest distances, see `GapOptions`,
-    /// and what the shape of the quads costs, but with distances in the frames alone that `around`
-    /// has for comparing places. Does not add up beyond `enough`.
+    /// and what the shape of the quads costs, but with distances in the first few frames of
+    /// `around` alone: enough to compare places. Does not add up beyond `enough`.
     double rough_cost(const Surroundings& around, double enough) const;
-
-    /// How often a better place is looked for, each time compared in one more frame: the first few
-    /// may be no measure of many.
-    int attempts() const { return is_rough_ ? 3 : 1; }
 
     /// Length that no move makes the longest edge at a vertex longer than, where it is `longest`.
     double longest_allowed(double longest) const { return std::max(longest, most_stretch_); }
 
-    /// What `take_if_better` comes to.
-    enum class Verdict {
-        taken,           ///< better, and known now
-        needs_a_frame,   ///< no better; another place may be: they are compared in one more frame
-        no_frame_helps,  ///< no better, as places have been compared in all frames that show it
-    };
-
     /// Looks again at what has changed. Where the cost over all frames is less than it was before
-    /// anything moved, keeps what it sees. Where it is not, places are compared from now on in the
-    /// frame, too, that is the farthest of those seen beside.
-    Verdict take_if_better(Surroundings& around, const Context& context);
+    /// anything moved, keeps what it sees and returns true.
+    bool take_if_better(const Surroundings& around, const Context& context);
 
 private:
-    /// A point of the input that is looked at, in the triangle of the vertices `a`, `b` and `c`; a
-    /// vertex where all are the same, a point of an edge where `c` is `a`.
-    struct InputPoint {
+    /// A point of the input that is looked at, on the edge from vertex `a` to vertex `b`.
+    struct EdgePoint {
         int a;
         int b;
-        int c;
-        double share_of_b;
-        double share_of_c;
+        double share;  ///< 0 at `a`, 1 at `b`
 
         Vector3 position(const Positions& X) const {
-            return ((1 - share_of_b - share_of_c) * X.row(a) + share_of_b * X.row(b) +
-                    share_of_c * X.row(c))
-                .transpose();
+            return ((1 - share) * X.row(a) + share * X.row(b)).transpose();
         }
     };
 
@@ -104,9 +82,8 @@ private:
     double squared_distance_with(double misfit) const;
     double shape_cost(const Surroundings& around) const;
     void choose_points();
-    std::vector<char> vertices_beyond(double distance) const;
+    void choose_more_points();
     void choose_points_on_edges(double longest, const std::vector<char>& is_wanted);
-    void choose_points_inside(const std::vector<char>& is_wanted);
     void choose_sides();
     void look_at_quads(std::size_t f, const Context& context);
     void look_at_points(std::size_t f, const Context& context);
@@ -120,11 +97,11 @@ private:
     const SlidingQuads& sliding_;
     double shape_weight_;
     double most_stretch_;
-    bool is_rough_;                   ///< see `GapOptions`
-    bool has_close_points_ = true;    ///< whether points on all edges are close to one another
-    std::vector<InputPoint> points_;  ///< of the input
-    std::vector<char> owns_side_;     ///< corner c: whether the side that begins there is looked at
-    std::vector<View> views_;         ///< f
+    bool is_rough_;                  ///< see `GapOptions`
+    bool has_more_points_ = false;   ///< whether some points come once it is known what is far
+    std::vector<EdgePoint> points_;  ///< of the input
+    std::vector<char> owns_side_;    ///< corner c: whether the side that begins there is looked at
+    std::vector<View> views_;        ///< f
 };
 
 }  // namespace kinequad

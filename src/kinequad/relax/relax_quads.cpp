@@ -50,15 +50,14 @@ std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views, int
     return sampled;
 }
 
-/// `options.watched_frames`: up to `options.shaped_frames` of them, references among these, then,
-/// without weight, the rest.
+/// `options.settling_frames`, references among them, then, without weight, the rest of
+/// `options.watched_frames`.
 std::vector<SampledFrame> watched_frames(const std::vector<RelaxView>& views,
                                          const RelaxOptions& options) {
-    const int shaped = std::min(options.shaped_frames, options.watched_frames);
-    std::vector<SampledFrame> frames = sample_frames(views, shaped, 0, options);
+    std::vector<SampledFrame> frames = sample_frames(views, options.settling_frames, 0, options);
     for (const RelaxView& view : views) {
         const int count = view.frames.frame_count();
-        std::vector<int> known = evenly_chosen_frames(count, std::max(shaped, 1));
+        std::vector<int> known = evenly_chosen_frames(count, options.settling_frames);
         if (options.reference_frame) known.push_back(*options.reference_frame);
         for (const int frame : evenly_chosen_frames(count, options.watched_frames)) {
             if (std::find(known.begin(), known.end(), frame) != known.end()) continue;
@@ -317,23 +316,23 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     constexpr double longest_stretch = 4;
     constexpr double held_share = 0.85;
     constexpr double settled_share = 0.85;
+    // Of what closes gaps once more at the end.
+    constexpr double closing_shape_weight = 1;
+    constexpr double least_shape_weight = 3;
     constexpr double few_far = 0.006;
+    constexpr double many_far = 0.015;
     constexpr double tightening = 0.88;
-    constexpr double weight_of_distance = 0.35;
-    constexpr double farthest_share = 0.97;
-    constexpr double least_limit_share = 0.9;
+    constexpr double weight_of_distance = 0.3;
     SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
                          watched_frames(views, options), static_cast<int>(views.size()));
     sliding.let_slide(options.line_edges);
     const double limit = options.distance_limit * sliding.mean_edge_length();
-    // Where shapes count in fewer frames than distances do, they have to hold their own: above all
-    // at first, when most moves.
-    const double frames_per_shaped = sliding.frames_per_shaped();
+    // Shapes count in fewer frames than distances do, and have to hold their own.
     const auto gaps_within = [&](double gap_limit, double weight) {
-        return GapOptions{gap_limit, true, options.drags_patches, weight, longest_stretch};
+        return GapOptions{gap_limit, true, options.drags_patches,
+                          std::max(weight * sliding.frames_per_shaped(), least_shape_weight),
+                          longest_stretch};
     };
-    const double closing_weight = shape_weight * frames_per_shaped;
-    const double settling_weight = closing_weight * frames_per_shaped;
     const auto share_of_far = [&](const GapsLeft& left) {
         const auto far = std::count_if(left.at_quads.begin(), left.at_quads.end(),
                                        [](double distance) { return distance > 1; });
@@ -347,27 +346,18 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     const int between = std::max(1, options.watched_rounds / 2);
     const GapsLeft settled = settle(
         sliding, limit, {options.watched_rounds, between, held_share, true},
-        gaps_within(options.gap_limit, settling_weight), {"settling", 0, settled_share}, context);
+        gaps_within(options.gap_limit, shape_weight), {"settling", 0, settled_share}, context);
     const double settled_grade = grade(settled, options.gap_limit);
-    double farthest = settled.mean_farthest * options.gap_limit;
-    // Where nearly nothing is left, a lower limit is reached for.
-    if (share_of_far(settled) <= few_far) {
+    // What is left is worth more of the shapes, unless quads are too coarse for much of it. Where
+    // nearly nothing is, a lower limit is reached for.
+    if (share_of_far(settled) <= many_far) {
         const SlidingQuads::State before = sliding.state();
-        const double closing_limit = tightening * options.gap_limit;
+        const double closing_limit =
+            options.gap_limit * (share_of_far(settled) <= few_far ? tightening : 1);
         const GapsLeft closed =
-            sliding.close_gaps(gaps_within(closing_limit, closing_weight), context);
-        if (grade(closed, closing_limit) < settled_grade) {
-            farthest = closed.mean_farthest * closing_limit;
-        } else {
-            sliding.restore(before);
-        }
+            sliding.close_gaps(gaps_within(closing_limit, closing_shape_weight), context);
+        if (grade(closed, closing_limit) >= settled_grade) sliding.restore(before);
     }
-    // The farthest place of a frame says how close it is; these are few.
-    GapOptions at_farthest = gaps_within(
-        std::max(farthest_share * farthest, least_limit_share * options.gap_limit), closing_weight);
-    at_farthest.only_farthest = true;
-    // Twice: what moves may leave the input between the points that were looked at.
-    for (int time = 0; time < 2; ++time) sliding.close_gaps(at_farthest, context);
     context.report_progress("settling", 1);
     return sliding.quads();
 }

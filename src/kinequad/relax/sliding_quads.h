@@ -59,9 +59,6 @@ struct GapOptions {
     /// Length beyond which no move makes the longest edge at a vertex longer in any frame with a
     /// weight, in mean lengths.
     double most_stretch = kinequad::most_stretch;
-    /// Whether of all quads that are far those alone are looked at that are the farthest in some
-    /// frame, and again until none of these comes closer.
-    bool only_farthest = false;
 };
 
 /// Distances between quads and input, in units of the limit that was asked for.

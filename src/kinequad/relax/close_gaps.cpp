@@ -39,17 +39,22 @@ std::vector<Vector3> moves_in_plane(const Eigen::Matrix<double, 3, 2>& tangents)
 /// Returns whether there is such a place.
 bool SlidingQuads::close_gaps_at(int v, Gaps& gaps, const Context& context) {
     static const Steps steps{6, {0.4, 0.16, 0.06}, true};
-    const Gaps::Surroundings around = gaps.surroundings({v});
+    Gaps::Surroundings around = gaps.surroundings({v});
     const SurfacePoint before = quads_.vertex[at(v)];
     const double least_jacobian = std::min(least_jacobian_around(v), least_closing_jacobian);
     const double longest = gaps.longest_allowed(longest_edge(v));
-    const bool is_moved = search_around(v, steps, [&](double least) {
-        if (least_jacobian_around(v) < least_jacobian || longest_edge(v) > longest) return least;
-        return gaps.rough_cost(around, least);
-    });
-    if (!is_moved) return false;
-    if (gaps.take_if_better(around, context)) return true;
-    place(v, before);
+    for (int attempt = 0; attempt < gaps.attempts(); ++attempt) {
+        const bool is_moved = search_around(v, steps, [&](double least) {
+            if (least_jacobian_around(v) < least_jacobian || longest_edge(v) > longest)
+                return least;
+            return gaps.rough_cost(around, least);
+        });
+        if (!is_moved) return false;
+        const Gaps::Verdict verdict = gaps.take_if_better(around, context);
+        if (verdict == Gaps::Verdict::taken) return true;
+        place(v, before);
+        if (verdict == Gaps::Verdict::no_frame_helps) break;
+    }
     return false;
 }
 
@@ -126,7 +131,7 @@ private:
 /// As `close_gaps_at`, for `v` and the patch around it.
 bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
     Patch patch(*this, v);
-    const Gaps::Surroundings around = gaps.surroundings(patch.vertices());
+    Gaps::Surroundings around = gaps.surroundings(patch.vertices());
     const auto least_jacobian = [&] {
         double least = 1;
         for (const int q : around.quads) least = std::min(least, least_jacobian_of(q));
@@ -144,22 +149,26 @@ bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
 
     const Frame& frame = frames_[around.frames.front()];
     const double size = shortest_edge(v) * frame.mean_edge / frames_[0].mean_edge;
-    double least_cost = gaps.rough_cost(around, std::numeric_limits<double>::infinity());
-    std::vector<SurfacePoint> best;
-    for (const Vector3& move :
-         moves_in_plane(embedding(quads_.vertex[at(v)].triangle, frame.input))) {
-        patch.move(size * move, frame.input);
-        if (!is_allowed()) continue;
-        const double cost = gaps.rough_cost(around, least_cost);
-        if (cost >= least_cost) continue;
-        least_cost = cost;
-        best = patch.places();
+    const std::vector<Vector3> moves =
+        moves_in_plane(embedding(quads_.vertex[at(v)].triangle, frame.input));
+    for (int attempt = 0; attempt < gaps.attempts(); ++attempt) {
+        double least_cost = gaps.rough_cost(around, std::numeric_limits<double>::infinity());
+        std::vector<SurfacePoint> best;
+        for (const Vector3& move : moves) {
+            patch.move(size * move, frame.input);
+            if (!is_allowed()) continue;
+            const double cost = gaps.rough_cost(around, least_cost);
+            if (cost >= least_cost) continue;
+            least_cost = cost;
+            best = patch.places();
+        }
+        if (!best.empty()) patch.put(best);
+        const Gaps::Verdict verdict =
+            best.empty() ? Gaps::Verdict::no_frame_helps : gaps.take_if_better(around, context);
+        if (verdict == Gaps::Verdict::taken) return true;
+        patch.put_back();
+        if (verdict == Gaps::Verdict::no_frame_helps) break;
     }
-    if (!best.empty()) {
-        patch.put(best);
-        if (gaps.take_if_better(around, context)) return true;
-    }
-    patch.put_back();
     return false;
 }
 

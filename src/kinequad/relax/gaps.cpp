@@ -27,7 +27,7 @@ constexpr double spacing = 0.7;
 constexpr double close_spacing = 0.35;
 constexpr std::size_t most_close_points = 2'000'000;
 
-/// Where places are compared, the frames with the largest distances are enough.
+/// Where places are compared, the frames with the largest distances are enough at first.
 constexpr std::size_t compared_frames = 3;
 
 double square(double x) { return x * x; }
@@ -147,8 +147,9 @@ SlidingQuads::Gaps::Surroundings SlidingQuads::Gaps::surroundings(
     }
     std::sort(order.begin(), order.end());
     for (const auto& [negative, f] : order) around.frames.push_back(f);
+    around.compared = std::min(compared_frames, around.frames.size());
     // The farthest first: most places that are no better show it there.
-    for (std::size_t i = 0; i < std::min(compared_frames, around.frames.size()); ++i) {
+    for (std::size_t i = 0; i < around.compared; ++i) {
         const std::size_t f = around.frames[i];
         const std::vector<double>& of_point = views_[f].of_point;
         std::sort(around.points[f].begin(), around.points[f].end(), [&](int x, int y) {
@@ -168,7 +169,7 @@ SlidingQuads::Gaps::Surroundings SlidingQuads::Gaps::surroundings(
 double SlidingQuads::Gaps::rough_cost(const Surroundings& around, double enough) const {
     const double shape = shape_cost(around);
     double misfit = 0;
-    for (std::size_t i = 0; i < std::min(compared_frames, views_.size()); ++i) {
+    for (std::size_t i = 0; i < around.compared; ++i) {
         const double left = enough - shape - misfit;
         if (left <= 0) break;
         const std::size_t f = around.frames[i];
@@ -180,15 +181,29 @@ double SlidingQuads::Gaps::rough_cost(const Surroundings& around, double enough)
     return shape + misfit;
 }
 
-bool SlidingQuads::Gaps::take_if_better(const Surroundings& around, const Context& context) {
+SlidingQuads::Gaps::Verdict SlidingQuads::Gaps::take_if_better(Surroundings& around,
+                                                               const Context& context) {
     // Most places that are no better show it in the frames that come first.
     constexpr std::size_t frames_together = 16;
     constexpr std::size_t frames_of_thread = 4;
     const double shape = shape_cost(around);
     double misfit = 0;
     std::vector<Look> seen;
+    const auto of = [&](std::size_t i) {
+        return seen[i].farthest / square(views_[around.frames[i]].unit);
+    };
+    const auto compare_in_worst = [&] {
+        std::size_t worst = around.compared;
+        for (std::size_t i = worst; i < seen.size(); ++i) {
+            if (of(i) > of(worst)) worst = i;
+        }
+        if (worst >= seen.size()) return Verdict::no_frame_helps;
+        std::swap(around.frames[worst], around.frames[around.compared]);
+        ++around.compared;
+        return Verdict::needs_a_frame;
+    };
     while (seen.size() < views_.size()) {
-        if (shape + misfit >= around.cost) return false;
+        if (shape + misfit >= around.cost) break;
         const std::size_t first = seen.size();
         seen.resize(std::min(views_.size(), first + frames_together));
         parallel_for(seen.size() - first, frames_of_thread, context,
@@ -198,12 +213,12 @@ bool SlidingQuads::Gaps::take_if_better(const Surroundings& around, const Contex
                          }
                      });
         for (std::size_t i = first; i < seen.size(); ++i) {
-            misfit += misfit_of(seen[i].farthest / square(views_[around.frames[i]].unit));
+            misfit += misfit_of(of(i));
         }
     }
-    if (shape + misfit >= around.cost) return false;
+    if (shape + misfit >= around.cost) return compare_in_worst();
     for (std::size_t i = 0; i < seen.size(); ++i) keep(around, around.frames[i], seen[i]);
-    return true;
+    return Verdict::taken;
 }
 
 /// What the shape of the quads that change counts beside their distances from the input.

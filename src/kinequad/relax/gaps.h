@@ -31,21 +31,35 @@ public:
         std::vector<int> patch;                ///< these, by number, then the ones around them
         std::vector<std::vector<int>> points;  ///< f: of the input, nearest to those that change
         std::vector<std::size_t> frames;       ///< the one with the largest distance first
+        std::size_t compared = 0;              ///< number of the first of them that places are
+                                               ///< compared in
         double cost = 0;                       ///< see below, before anything moves
     };
     Surroundings surroundings(const std::vector<int>& vertices) const;
 
     /// What is to become less: the sum of the powers of the largest distances, see `GapOptions`,
-    /// and what the shape of the quads costs, but with distances in the first few frames of
-    /// `around` alone: enough to compare places. Does not add up beyond `enough`.
+    /// and what the shape of the quads costs, but with distances in the frames alone that `around`
+    /// has for comparing places. Does not add up beyond `enough`.
     double rough_cost(const Surroundings& around, double enough) const;
+
+    /// How often a better place is looked for, each time compared in one more frame: the first few
+    /// may be no measure of many.
+    int attempts() const { return is_rough_ ? 3 : 1; }
 
     /// Length that no move makes the longest edge at a vertex longer than, where it is `longest`.
     double longest_allowed(double longest) const { return std::max(longest, most_stretch_); }
 
+    /// What `take_if_better` comes to.
+    enum class Verdict {
+        taken,           ///< better, and known now
+        needs_a_frame,   ///< no better; another place may be: they are compared in one more frame
+        no_frame_helps,  ///< no better, as places have been compared in all frames that show it
+    };
+
     /// Looks again at what has changed. Where the cost over all frames is less than it was before
-    /// anything moved, keeps what it sees and returns true.
-    bool take_if_better(const Surroundings& around, const Context& context);
+    /// anything moved, keeps what it sees. Where it is not, places are compared from now on in the
+    /// frame, too, that is the farthest of those seen beside.
+    Verdict take_if_better(Surroundings& around, const Context& context);
 
 private:
     /// A point of the input that is looked at, on the edge from vertex `a` to vertex `b`.

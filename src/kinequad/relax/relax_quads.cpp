@@ -322,7 +322,7 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     constexpr double few_far = 0.006;
     constexpr double many_far = 0.015;
     constexpr double tightening = 0.88;
-    constexpr double weight_of_distance = 0.3;
+    constexpr double weight_of_distance = 0.35;
     SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
                          watched_frames(views, options), static_cast<int>(views.size()));
     sliding.let_slide(options.line_edges);

@@ -43,19 +43,15 @@ bool SlidingQuads::close_gaps_at(int v, Gaps& gaps, const Context& context) {
     const SurfacePoint before = quads_.vertex[at(v)];
     const double least_jacobian = std::min(least_jacobian_around(v), least_closing_jacobian);
     const double longest = gaps.longest_allowed(longest_edge(v));
-    for (int attempt = 0; attempt < gaps.attempts(); ++attempt) {
-        const bool is_moved = search_around(v, steps, [&](double least) {
+    const auto move_to_best = [&] {
+        return search_around(v, steps, [&](double least) {
             if (least_jacobian_around(v) < least_jacobian || longest_edge(v) > longest)
                 return least;
             return gaps.rough_cost(around, least);
         });
-        if (!is_moved) return false;
-        const Gaps::Verdict verdict = gaps.take_if_better(around, context);
-        if (verdict == Gaps::Verdict::taken) return true;
-        place(v, before);
-        if (verdict == Gaps::Verdict::no_frame_helps) break;
-    }
-    return false;
+    };
+    return gaps.take_best(
+        around, move_to_best, [&] { place(v, before); }, context);
 }
 
 /// A vertex and the free ones of the quads around it, which go along half as far: where a tip has
@@ -151,7 +147,7 @@ bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
     const double size = shortest_edge(v) * frame.mean_edge / frames_[0].mean_edge;
     const std::vector<Vector3> moves =
         moves_in_plane(embedding(quads_.vertex[at(v)].triangle, frame.input));
-    for (int attempt = 0; attempt < gaps.attempts(); ++attempt) {
+    const auto move_to_best = [&] {
         double least_cost = gaps.rough_cost(around, std::numeric_limits<double>::infinity());
         std::vector<SurfacePoint> best;
         for (const Vector3& move : moves) {
@@ -162,14 +158,12 @@ bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
             least_cost = cost;
             best = patch.places();
         }
-        if (!best.empty()) patch.put(best);
-        const Gaps::Verdict verdict =
-            best.empty() ? Gaps::Verdict::no_frame_helps : gaps.take_if_better(around, context);
-        if (verdict == Gaps::Verdict::taken) return true;
-        patch.put_back();
-        if (verdict == Gaps::Verdict::no_frame_helps) break;
-    }
-    return false;
+        if (best.empty()) return false;
+        patch.put(best);
+        return true;
+    };
+    return gaps.take_best(
+        around, move_to_best, [&] { patch.put_back(); }, context);
 }
 
 GapsLeft SlidingQuads::close_gaps(const GapOptions& options, const Context& context) {

@@ -181,6 +181,22 @@ double SlidingQuads::Gaps::rough_cost(const Surroundings& around, double enough)
     return shape + misfit;
 }
 
+bool SlidingQuads::Gaps::take_best(Surroundings& around, const std::function<bool()>& move_to_best,
+                                   const std::function<void()>& put_back, const Context& context) {
+    const int most_attempts = is_rough_ ? 3 : 1;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        const bool is_moved = move_to_best();
+        const Verdict verdict =
+            is_moved ? take_if_better(around, context) : Verdict::no_frame_helps;
+        if (verdict == Verdict::taken) return true;
+        put_back();
+        if (verdict == Verdict::no_frame_helps) break;
+    }
+    return false;
+}
+
+/// Looks again at what has changed, and keeps what it sees where that is better. Where it is not,
+/// `around` gets the farthest of the frames seen beside to compare places in.
 SlidingQuads::Gaps::Verdict SlidingQuads::Gaps::take_if_better(Surroundings& around,
                                                                const Context& context) {
     // Most places that are no better show it in the frames that come first.

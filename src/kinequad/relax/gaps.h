@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -42,24 +43,16 @@ public:
     /// has for comparing places. Does not add up beyond `enough`.
     double rough_cost(const Surroundings& around, double enough) const;
 
-    /// How often a better place is looked for, each time compared in one more frame: the first few
-    /// may be no measure of many.
-    int attempts() const { return is_rough_ ? 3 : 1; }
-
     /// Length that no move makes the longest edge at a vertex longer than, where it is `longest`.
     double longest_allowed(double longest) const { return std::max(longest, most_stretch_); }
 
-    /// What `take_if_better` comes to.
-    enum class Verdict {
-        taken,           ///< better, and known now
-        needs_a_frame,   ///< no better; another place may be: they are compared in one more frame
-        no_frame_helps,  ///< no better, as places have been compared in all frames that show it
-    };
-
-    /// Looks again at what has changed. Where the cost over all frames is less than it was before
-    /// anything moved, keeps what it sees. Where it is not, places are compared from now on in the
-    /// frame, too, that is the farthest of those seen beside.
-    Verdict take_if_better(Surroundings& around, const Context& context);
+    /// Moves to the best place by `rough_cost`, if there is one, with `move_to_best`, which says
+    /// whether there is, and looks again at what has changed. Where the cost over all frames is
+    /// less than it was before anything moved, keeps what it sees and returns true. Where it is
+    /// not, the first few frames may be no measure of many: with distances in all frames, another
+    /// place is looked for, compared in one more frame, twice at most. `put_back` undoes a move.
+    bool take_best(Surroundings& around, const std::function<bool()>& move_to_best,
+                   const std::function<void()>& put_back, const Context& context);
 
 private:
     /// A point of the input that is looked at, on the edge from vertex `a` to vertex `b`.
@@ -90,6 +83,14 @@ private:
         double farthest = 0;
     };
 
+    /// What `take_if_better` comes to.
+    enum class Verdict {
+        taken,           ///< better, and known now
+        needs_a_frame,   ///< no better; another place may be: they are compared in one more frame
+        no_frame_helps,  ///< no better, as places have been compared in all frames that show it
+    };
+
+    Verdict take_if_better(Surroundings& around, const Context& context);
     Look look(const Surroundings& around, std::size_t f) const;
     void keep(const Surroundings& around, std::size_t f, const Look& seen);
     double misfit_of(double squared) const;

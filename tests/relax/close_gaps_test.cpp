@@ -57,16 +57,22 @@ TriangleMesh with_hole(int n, const Vector3& centre, double radius) {
     return mesh;
 }
 
-/// Wherever a quad leaves the input, that is found, whether or not a sample is there.
+/// Wherever a quad leaves the input, that is found, whether samples show some of it (0 to 3) or, in
+/// the middle of a half, none (4 to 7).
 TEST(CloseGaps, FindsTheFarthestPlaceInsideAQuadWhenRough) {
     constexpr int samples = 50;
     std::mt19937 random(3);
     std::uniform_real_distribution<double> place(0.36, 0.64);
     std::uniform_real_distribution<double> size(0.25, 0.33);
-    for (int i = 0; i < 4; ++i) {
-        const Vector3 centre(place(random), place(random), 0);
+    for (int i = 0; i < 8; ++i) {
+        Vector3 centre(place(random), place(random), 0);
+        double radius = size(random);
+        if (i >= 4) {
+            centre[1] = 0.2;
+            radius *= 0.4;
+        }
         // A large quad over the hole, and small ones, which make the unit short.
-        Grid grid(with_hole(24, centre, size(random)), 20, 0);
+        Grid grid(with_hole(24, centre, radius), 20, 0);
         const int first = static_cast<int>(grid.quads.vertex.size());
         for (const auto& [x, y] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}) {
             grid.quads.vertex.push_back(grid.above(x, y));
@@ -84,6 +90,39 @@ TEST(CloseGaps, FindsTheFarthestPlaceInsideAQuadWhenRough) {
         const double unit = sliding.mean_edge_length();
         const double found = unit * sliding.close_gaps({1, true}, {}).at_quads[0];
         EXPECT_NEAR(found, farthest, 0.08 * unit + 1.0 / samples) << i;
+    }
+}
+
+/// Where the farthest alone are looked at, so is the place of the input that is farthest from the
+/// quads, inside a triangle: whether its corners are far, too, or only points on its edges.
+TEST(CloseGaps, FindsTheFarthestPlaceInsideATriangleOfTheInput) {
+    Grid grid(landscape(8, flat), 40, 0);
+    for (const auto& [radius, limit] : {std::pair{0.2, 4.0}, {0.06, 1.0}}) {
+        for (const Eigen::Index t : {53, 54, 72, 73}) {
+            Vector3 middle = Vector3::Zero();
+            for (const int v : grid.mesh.F.row(t)) middle += grid.mesh.V.row(v).transpose() / 3;
+            // The quads leave out a disc there, whose rim stays.
+            Grid holed = grid;
+            Eigen::Index left = 0;
+            for (Eigen::Index q = 0; q < grid.quads.Q.rows(); ++q) {
+                const QuadCorners p = grid.corners(grid.quads, grid.mesh.V, q);
+                if (((p[0] + p[2]) / 2 - middle).norm() < radius) continue;
+                holed.quads.Q.row(left++) = grid.quads.Q.row(q);
+            }
+            holed.quads.Q.conservativeResize(left, 4);
+            Positions places(static_cast<Eigen::Index>(holed.quads.vertex.size()), 3);
+            for (Eigen::Index v = 0; v < places.rows(); ++v) {
+                places.row(v) = position_of(holed.quads.vertex[static_cast<std::size_t>(v)],
+                                            grid.mesh.V, grid.mesh.F);
+            }
+            const ClosestPoints quads(places, cut_quads(holed.quads.Q, places));
+            const double farthest = std::sqrt(quads.find(middle).squared_distance);
+            SlidingQuads sliding = holed.sliding({{grid.mesh.V, 1}});
+            const double unit = limit * sliding.mean_edge_length();
+            const GapOptions options{.limit = limit, .is_rough = true, .only_farthest = true};
+            EXPECT_NEAR(unit * largest(sliding.close_gaps(options, {}).at_quads), farthest, 0.012)
+                << t << " with a radius of " << radius;
+        }
     }
 }
 
@@ -184,6 +223,32 @@ TEST(CloseGaps, LooksAgainWhereAnotherFrameForbidsThePlaceWhenRough) {
             sliding.close_gaps({.limit = limit, .is_rough = true, .shape_weight = 1e-3}, {});
         EXPECT_NEAR(limit * left.mean_farthest, roughly_near_share, 1e-9) << height;
     }
+}
+
+/// A spike on the boundary, where vertices stay, is the farthest for good: a lower one inside is
+/// left alone, unless it is the farthest in another frame.
+TEST(CloseGaps, MendsTheFarthestPlaceOfEveryFrameAlone) {
+    const auto spikes = [](double at_boundary) {
+        return landscape(40, [=](double x, double y) {
+            const auto cone = [&](double height, double u, double v) {
+                return height * std::max(0.0, 1 - std::hypot(x - u, y - v) / 0.06);
+            };
+            return cone(at_boundary, 0.45, 0) + cone(0.1, 0.75, 0.75);
+        });
+    };
+    const Grid grid(spikes(0.3), 10, 0);
+    const Positions without = spikes(0).V;
+    constexpr std::size_t inner_quad = 77;
+    const auto left_inside = [&](std::vector<SampledFrame> frames, bool only_farthest) {
+        SlidingQuads sliding = grid.sliding(std::move(frames));
+        const GapOptions options{.limit = 0.3, .is_rough = true, .only_farthest = only_farthest};
+        return sliding.close_gaps(options, {}).at_quads[inner_quad];
+    };
+    const double mended = left_inside({{grid.mesh.V, 1}}, false);
+    const double left_alone = left_inside({{grid.mesh.V, 1}}, true);
+    EXPECT_LT(mended, 0.7 * left_alone);
+    EXPECT_NEAR(left_alone, 0.1 / 0.3 * 10, 0.1);
+    EXPECT_LT(left_inside({{grid.mesh.V, 1}, {without, 1}}, true), 0.7 * left_alone);
 }
 
 /// Cones of many heights between the vertices of the grid.

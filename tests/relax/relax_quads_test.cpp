@@ -294,13 +294,13 @@ TEST(RelaxQuads, SettlesInFramesBetweenTheSampledOnes) {
 TEST(SettleInMoreFrames, ClosesAGapThatOnlyOneOfThemShows) {
     const auto farthest = [](int watched_frames) {
         return farthest_from_spike(settle_in_more_frames,
-                                   {.settling_frames = 3, .watched_frames = watched_frames});
+                                   {.watched_frames = watched_frames, .shaped_frames = 3});
     };
     for (const int too_few : {0, 3, 4}) EXPECT_GT(farthest(too_few), 0.6 / 6);
     EXPECT_LT(farthest(12), 0.5 / 6);
 }
 
-TEST(SettleInMoreFrames, CountsShapesInTheSettlingFramesAlone) {
+TEST(SettleInMoreFrames, CountsShapesInTheShapedFramesAlone) {
     const Grid grid(landscape(14, flat), 7, 0.45);
     // What is watched beside these is sheared so much that squares would be far from squares.
     std::vector<Positions> frames(8, grid.mesh.V);
@@ -309,7 +309,7 @@ TEST(SettleInMoreFrames, CountsShapesInTheSettlingFramesAlone) {
     const MemorySequence mixed(grid.mesh.F, frames);
     const auto settled = [&](const MemorySequence& sequence) {
         return settle_in_more_frames(grid.quads, {{sequence, grid.mesh.V}}, grid.topology,
-                                     grid.metric, {.settling_frames = 4, .watched_frames = 8}, {});
+                                     grid.metric, {.watched_frames = 8, .shaped_frames = 4}, {});
     };
     const QuadMesh quads = settled(mixed);
     EXPECT_EQ(quads.vertex, settled(straight).vertex);

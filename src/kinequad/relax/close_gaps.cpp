@@ -1,5 +1,6 @@
 // What relaxation does about the distance between quads and input in all frames.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -54,8 +55,8 @@ bool SlidingQuads::close_gaps_at(int v, Gaps& gaps, const Context& context) {
         around, move_to_best, [&] { place(v, before); }, context);
 }
 
-/// A vertex and the free ones of the quads around it, which go along half as far: where a tip has
-/// to be reached, no vertex gets there alone.
+/// A vertex and the free ones of the quads around it, which go along: where a tip has to be
+/// reached, no vertex gets there alone.
 class SlidingQuads::Patch {
 public:
     Patch(SlidingQuads& quads, int middle)
@@ -79,9 +80,8 @@ public:
     void put_back() { put(before_); }
 
     /// Moves the middle by `move` (in space) over the surface as it lies in the pose `X` (n x 3),
-    /// from where it was at first.
-    void move(const Vector3& move, const Positions& X) {
-        constexpr double following_share = 0.5;
+    /// from where it was at first, and the rest by `following_share` of it.
+    void move(const Vector3& move, const Positions& X, double following_share) {
         for (std::size_t i = 0; i < vertices_.size(); ++i) {
             const auto tangents = sliding_.embedding(before_[i].triangle, X);
             const Vector2 step =
@@ -124,8 +124,9 @@ private:
     std::vector<SurfacePoint> before_;
 };
 
-/// As `close_gaps_at`, for `v` and the patch around it.
-bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
+/// As `close_gaps_at`, for `v` and the patch around it, which goes along by one of the shares.
+bool SlidingQuads::drag(int v, const std::vector<double>& following_shares, Gaps& gaps,
+                        const Context& context) {
     Patch patch(*this, v);
     Gaps::Surroundings around = gaps.surroundings(patch.vertices());
     const auto least_jacobian = [&] {
@@ -150,13 +151,15 @@ bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
     const auto move_to_best = [&] {
         double least_cost = gaps.rough_cost(around, std::numeric_limits<double>::infinity());
         std::vector<SurfacePoint> best;
-        for (const Vector3& move : moves) {
-            patch.move(size * move, frame.input);
-            if (!is_allowed()) continue;
-            const double cost = gaps.rough_cost(around, least_cost);
-            if (cost >= least_cost) continue;
-            least_cost = cost;
-            best = patch.places();
+        for (const double share : following_shares) {
+            for (const Vector3& move : moves) {
+                patch.move(size * move, frame.input, share);
+                if (!is_allowed()) continue;
+                const double cost = gaps.rough_cost(around, least_cost);
+                if (cost >= least_cost) continue;
+                least_cost = cost;
+                best = patch.places();
+            }
         }
         if (best.empty()) return false;
         patch.put(best);
@@ -167,13 +170,16 @@ bool SlidingQuads::drag(int v, Gaps& gaps, const Context& context) {
 }
 
 GapsLeft SlidingQuads::close_gaps(const GapOptions& options, const Context& context) {
-    constexpr int rounds = 8;
+    const int rounds = options.only_farthest ? 32 : 8;
     constexpr double far_share = 0.8;
     release();
     parallel_for(frames_.size(), 1, context, [&](std::size_t f, std::size_t) {
         if (!frames_[f].surface) frames_[f].surface.emplace(frames_[f].input, F_);
     });
     Gaps gaps(*this, options, context);
+    const auto far_quads = [&] {
+        return options.only_farthest ? gaps.farthest_quads() : gaps.quads_beyond(far_share);
+    };
     // Goes over the vertices up to `reach` quads around those that are far, until `is_moved` moves
     // none any more; where one has moved, those up to a quad farther on have another chance.
     const auto go_over = [&](int reach, std::size_t most, const auto& is_moved) {
@@ -181,7 +187,7 @@ GapsLeft SlidingQuads::close_gaps(const GapOptions& options, const Context& cont
         bool is_any_moved = true;
         for (int round = 0; round < rounds && is_any_moved; ++round) {
             is_any_moved = false;
-            for (const int q : gaps.quads_beyond(far_share)) {
+            for (const int q : far_quads()) {
                 for (const int v : vertices_around(q, reach)) {
                     if (is_pinned_[at(v)] != 0 || is_settled[at(v)] != 0 || most == 0) continue;
                     context.check_cancelled();
@@ -203,8 +209,10 @@ GapsLeft SlidingQuads::close_gaps(const GapOptions& options, const Context& cont
         quads_.vertex.size() / 16 * usual_frames / std::max(usual_frames, frames_.size());
     go_over(1, quads_.vertex.size() / 2, [&](int v) { return close_gaps_at(v, gaps, context); });
     if (options.drags_patches) {
+        const auto following_shares =
+            options.only_farthest ? std::vector{0.5, 1.0, 0.25, -0.3} : std::vector{0.5};
         go_over(0, patches, [&](int v) {
-            if (!drag(v, gaps, context)) return false;
+            if (!drag(v, following_shares, gaps, context)) return false;
             for (const int c : corners_of(v)) {
                 for (const int w : vertices_around(c / 4, 0)) {
                     if (is_pinned_[at(w)] == 0) close_gaps_at(w, gaps, context);
@@ -212,6 +220,10 @@ GapsLeft SlidingQuads::close_gaps(const GapOptions& options, const Context& cont
             }
             return true;
         });
+    }
+    // What the few have cost is shared with those around.
+    if (options.only_farthest) {
+        go_over(3, quads_.vertex.size(), [&](int v) { return close_gaps_at(v, gaps, context); });
     }
     return {gaps.at_quads(), gaps.mean_farthest()};
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <utility>
 
 #include "kinequad/core/index.h"
 #include "kinequad/core/parallel.h"
@@ -16,16 +17,25 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Quads with a distance beyond this, in units, are searched for the largest one where all frames
-/// count; that much, in mean lengths of edges, is not told apart there.
+/// Where all frames count, quads with a sample that is not near, or with a line longer than samples
+/// are dense enough for, in mean lengths of edges, are searched for the largest distance beyond so
+/// many units. That much, in mean lengths, is not told apart there; less where only the farthest
+/// quads are looked at.
+constexpr double densely_sampled = 1.75;
 constexpr double worth_a_closer_look = 0.8;
 constexpr double told_apart = 0.08;
+constexpr double finely_told_apart = 0.04;
 
 /// Between points on edges of the input, in mean lengths of the quads' edges; and how many of those
 /// that are close to one another there are at most, over all frames.
 constexpr double spacing = 0.7;
 constexpr double close_spacing = 0.35;
 constexpr std::size_t most_close_points = 2'000'000;
+
+/// Between points inside triangles, in mean lengths of the quads' edges, and how far, in units, a
+/// corner or a point of an edge at one is from the quads where there are any.
+constexpr double inner_spacing = 0.12;
+constexpr double worth_points_inside = 0.7;
 
 /// Where places are compared, the frames with the largest distances are enough at first.
 constexpr std::size_t compared_frames = 3;
@@ -39,6 +49,14 @@ double squared_distance_to_quad(const Vector3& point, const QuadCorners& p) {
         closest_point_on_triangle(point, p[k], p[k + 2], p[(k + 3) % 4]).squared_distance);
 }
 
+/// The longest side of a quad, or the diagonal that it is cut along.
+double longest_line(const QuadCorners& p) {
+    const std::size_t k = end_of_cut(p);
+    double longest = (p[k + 2] - p[k]).norm();
+    for (std::size_t i = 0; i < 4; ++i) longest = std::max(longest, (p[(i + 1) % 4] - p[i]).norm());
+    return longest;
+}
+
 }  // namespace
 
 SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
@@ -46,6 +64,7 @@ SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
     : sliding_(quads),
       shape_weight_(options.shape_weight),
       most_stretch_(options.most_stretch),
+      told_apart_(options.only_farthest ? finely_told_apart : told_apart),
       is_rough_(options.is_rough) {
     choose_points();
     choose_sides();
@@ -58,8 +77,14 @@ SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
         look_at_quads(f, context);
         look_at_points(f, context);
     });
-    if (!has_more_points_) return;
-    choose_more_points();
+    if (!is_rough_ || (has_close_points_ && !options.only_farthest)) return;
+    // There the middle of an edge may be the farthest, or, where points on edges leave no more than
+    // that to find, one inside a triangle.
+    if (!has_close_points_) {
+        choose_points_on_edges(close_spacing, vertices_beyond(roughly_near_share / options.limit));
+    } else {
+        choose_points_inside(vertices_beyond(worth_points_inside));
+    }
     parallel_for(views_.size(), 1, context,
                  [&](std::size_t f, std::size_t) { look_at_points(f, context); });
 }
@@ -110,6 +135,18 @@ std::vector<int> SlidingQuads::Gaps::quads_beyond(double distance) const {
     std::vector<int> quads;
     quads.reserve(far.size());
     for (const auto& [negative, q] : far) quads.push_back(q);
+    return quads;
+}
+
+std::vector<int> SlidingQuads::Gaps::farthest_quads() const {
+    std::vector<int> quads;
+    for (const View& view : views_) {
+        const auto quad = std::max_element(view.of_quad.begin(), view.of_quad.end());
+        const auto point = std::max_element(view.of_point.begin(), view.of_point.end());
+        quads.push_back(*quad >= *point ? static_cast<int>(quad - view.of_quad.begin())
+                                        : view.nearest[at(point - view.of_point.begin())]);
+    }
+    sort_unique(quads);
     return quads;
 }
 
@@ -282,7 +319,7 @@ void SlidingQuads::Gaps::keep(const Surroundings& around, std::size_t f, const L
 void SlidingQuads::Gaps::choose_points() {
     const Topology& topology = sliding_.topology_;
     for (int v = 0; v < topology.vertex_count; ++v) {
-        if (topology.vertex_half_edge[at(v)] >= 0) points_.push_back({v, v, 0});
+        if (topology.vertex_half_edge[at(v)] >= 0) points_.push_back({v, v, v, 0, 0});
     }
     const std::vector<char> all(at(topology.vertex_count), 1);
     const std::size_t vertices = points_.size();
@@ -292,19 +329,20 @@ void SlidingQuads::Gaps::choose_points() {
         points_.resize(vertices);
     }
     choose_points_on_edges(spacing, all);
-    has_more_points_ = is_rough_;
+    has_close_points_ = false;
 }
 
-/// Points closer to one another on edges with an end that is not near in some frame: there the
-/// middle of an edge may be the farthest.
-void SlidingQuads::Gaps::choose_more_points() {
-    std::vector<char> is_far(at(sliding_.topology_.vertex_count), 0);
-    for (std::size_t x = 0; x < points_.size() && points_[x].a == points_[x].b; ++x) {
-        is_far[at(points_[x].a)] = std::any_of(views_.begin(), views_.end(), [&](const View& view) {
-            return square(view.of_point[x]) > view.squared_near;
-        });
+/// The vertices (v) that have, or have on an edge of theirs, a point that is farther than
+/// `distance` units in some frame.
+std::vector<char> SlidingQuads::Gaps::vertices_beyond(double distance) const {
+    std::vector<char> is_beyond(at(sliding_.topology_.vertex_count), 0);
+    for (std::size_t x = 0; x < points_.size(); ++x) {
+        if (!std::any_of(views_.begin(), views_.end(),
+                         [&](const View& view) { return view.of_point[x] > distance * view.unit; }))
+            continue;
+        for (const int v : {points_[x].a, points_[x].b}) is_beyond[at(v)] = 1;
     }
-    choose_points_on_edges(close_spacing, is_far);
+    return is_beyond;
 }
 
 /// Points that part edges with an end in `is_wanted` (v) into pieces of at most `longest` mean
@@ -325,7 +363,37 @@ void SlidingQuads::Gaps::choose_points_on_edges(double longest,
         }
         const int parts = static_cast<int>(std::min(most_parts, std::ceil(length / longest)));
         for (int i = 1; i < parts; ++i) {
-            points_.push_back({a, b, static_cast<double>(i) / parts});
+            points_.push_back({a, b, a, static_cast<double>(i) / parts, 0});
+        }
+    }
+}
+
+/// Points that part triangles with a corner in `is_wanted` (v) into ones with sides of at most
+/// `inner_spacing` mean lengths of the quads' edges in all frames.
+void SlidingQuads::Gaps::choose_points_inside(const std::vector<char>& is_wanted) {
+    constexpr double most_parts = 8;
+    const Triangles& F = sliding_.F_;
+    for (Eigen::Index t = 0; t < F.rows(); ++t) {
+        const std::array corner{F(t, 0), F(t, 1), F(t, 2)};
+        if (std::none_of(corner.begin(), corner.end(),
+                         [&](int v) { return is_wanted[at(v)] != 0; }))
+            continue;
+        double longest = 0;
+        for (const Frame& frame : sliding_.frames_) {
+            for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {2, 0}}) {
+                const double length =
+                    (frame.input.row(corner[at(a)]) - frame.input.row(corner[at(b)])).norm();
+                longest = std::max(longest, length / frame.mean_edge);
+            }
+        }
+        const int parts =
+            static_cast<int>(std::min(most_parts, std::ceil(longest / inner_spacing)));
+        for (int i = 0; i <= parts; ++i) {
+            for (int j = 0; j <= parts - i; ++j) {
+                if (i == parts || j == parts || i + j == 0) continue;
+                points_.push_back({corner[0], corner[1], corner[2], static_cast<double>(i) / parts,
+                                   static_cast<double>(j) / parts});
+            }
         }
     }
 }
@@ -407,8 +475,9 @@ double SlidingQuads::Gaps::squared_distance(const Surroundings& around, std::siz
 /// Largest squared distance of points of a triangle to the input, or `known` where none is much
 /// farther than that. A point is no farther than another one and the way between the two.
 double SlidingQuads::Gaps::squared_distance_inside(const std::array<Vector3, 3>& corners,
-                                                   double known, const Frame& frame, int hint) {
-    const double tolerance = told_apart * frame.mean_edge;
+                                                   double known, const Frame& frame,
+                                                   int hint) const {
+    const double tolerance = told_apart_ * frame.mean_edge;
     const Vector3 middle = (corners[0] + corners[1] + corners[2]) / 3;
     double radius = 0;
     for (const Vector3& corner : corners) radius = std::max(radius, (corner - middle).norm());
@@ -433,8 +502,8 @@ double SlidingQuads::Gaps::squared_distance_inside(const std::array<Vector3, 3>&
 
 /// Largest squared distance of points of a quad to the input: on the sides that are its own, on
 /// the shorter diagonal and inside the two triangles; on more of them where one is not near. Where
-/// all frames count and one is far, whatever is farther inside.
-/// What is near counts as if it just were.
+/// all frames count, whatever is far inside, see `densely_sampled`. What is near counts as if it
+/// just were.
 double SlidingQuads::Gaps::squared_distance_of(int quad, std::size_t f) const {
     const Frame& frame = sliding_.frames_[f];
     const QuadCorners p = sliding_.corners_in(frame, quad);
@@ -468,16 +537,18 @@ double SlidingQuads::Gaps::squared_distance_of(int quad, std::size_t f) const {
     const bool is_line_far = ask_on_lines({0.5, 0.25, 0.75});
     const bool is_first_far = ask((p[k] + p[k + 1] + p[k + 2]) / 3, at_middle(4));
     const bool is_second_far = ask((p[k] + p[k + 2] + p[(k + 3) % 4]) / 3, at_middle(4));
-    if (is_line_far || is_first_far || is_second_far) {
-        ask_on_lines({0.125, 0.375, 0.625, 0.875});
+    const bool is_far = is_line_far || is_first_far || is_second_far;
+    if (is_far) ask_on_lines({0.125, 0.375, 0.625, 0.875});
+    if (!is_rough_ || (!is_far && longest_line(p) <= densely_sampled * frame.mean_edge)) {
+        return farthest;
     }
-    if (!is_rough_ || farthest <= square(worth_a_closer_look * views_[f].unit)) return farthest;
+    const double worth_telling = square(worth_a_closer_look * views_[f].unit);
+    double inside = std::max(farthest, worth_telling);
     for (const auto& corners :
          {std::array{p[k], p[k + 1], p[k + 2]}, {p[k], p[k + 2], p[(k + 3) % 4]}}) {
-        farthest =
-            std::max(farthest, squared_distance_inside(corners, farthest, frame, at_middle(4)));
+        inside = std::max(inside, squared_distance_inside(corners, inside, frame, at_middle(4)));
     }
-    return farthest;
+    return inside > worth_telling ? inside : farthest;
 }
 
 }  // namespace kinequad

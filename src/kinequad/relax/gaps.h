@@ -26,6 +26,9 @@ public:
     /// The quads farther away than `distance` units in some frame, the farthest first.
     std::vector<int> quads_beyond(double distance) const;
 
+    /// The quads at the largest distance of some frame, by number.
+    std::vector<int> farthest_quads() const;
+
     /// What changes as some vertices move, and what is near.
     struct Surroundings {
         std::vector<int> quads;                ///< that change, the farthest first
@@ -55,14 +58,19 @@ public:
                    const std::function<void()>& put_back, const Context& context);
 
 private:
-    /// A point of the input that is looked at, on the edge from vertex `a` to vertex `b`.
-    struct EdgePoint {
+    /// A point of the input that is looked at, in the triangle of the vertices `a`, `b` and `c`; a
+    /// vertex where all are the same, a point of an edge where `c` is `a`.
+    struct InputPoint {
         int a;
         int b;
-        double share;  ///< 0 at `a`, 1 at `b`
+        int c;
+        double share_of_b;
+        double share_of_c;
 
         Vector3 position(const Positions& X) const {
-            return ((1 - share) * X.row(a) + share * X.row(b)).transpose();
+            return ((1 - share_of_b - share_of_c) * X.row(a) + share_of_b * X.row(b) +
+                    share_of_c * X.row(c))
+                .transpose();
         }
     };
 
@@ -97,8 +105,9 @@ private:
     double squared_distance_with(double misfit) const;
     double shape_cost(const Surroundings& around) const;
     void choose_points();
-    void choose_more_points();
+    std::vector<char> vertices_beyond(double distance) const;
     void choose_points_on_edges(double longest, const std::vector<char>& is_wanted);
+    void choose_points_inside(const std::vector<char>& is_wanted);
     void choose_sides();
     void look_at_quads(std::size_t f, const Context& context);
     void look_at_points(std::size_t f, const Context& context);
@@ -106,17 +115,18 @@ private:
                                       double enough) const;
     double squared_distance(const Surroundings& around, std::size_t f, double too_far) const;
     double squared_distance_of(int quad, std::size_t f) const;
-    static double squared_distance_inside(const std::array<Vector3, 3>& corners, double known,
-                                          const Frame& frame, int hint);
+    double squared_distance_inside(const std::array<Vector3, 3>& corners, double known,
+                                   const Frame& frame, int hint) const;
 
     const SlidingQuads& sliding_;
     double shape_weight_;
     double most_stretch_;
-    bool is_rough_;                  ///< see `GapOptions`
-    bool has_more_points_ = false;   ///< whether some points come once it is known what is far
-    std::vector<EdgePoint> points_;  ///< of the input
-    std::vector<char> owns_side_;    ///< corner c: whether the side that begins there is looked at
-    std::vector<View> views_;        ///< f
+    double told_apart_;               ///< in mean lengths of edges
+    bool is_rough_;                   ///< see `GapOptions`
+    bool has_close_points_ = true;    ///< whether points on all edges are close to one another
+    std::vector<InputPoint> points_;  ///< of the input
+    std::vector<char> owns_side_;     ///< corner c: whether the side that begins there is looked at
+    std::vector<View> views_;         ///< f
 };
 
 }  // namespace kinequad

@@ -50,14 +50,15 @@ std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views, int
     return sampled;
 }
 
-/// `options.settling_frames`, references among them, then, without weight, the rest of
-/// `options.watched_frames`.
+/// `options.watched_frames`: up to `options.shaped_frames` of them, references among these, then,
+/// without weight, the rest.
 std::vector<SampledFrame> watched_frames(const std::vector<RelaxView>& views,
                                          const RelaxOptions& options) {
-    std::vector<SampledFrame> frames = sample_frames(views, options.settling_frames, 0, options);
+    const int shaped = std::min(options.shaped_frames, options.watched_frames);
+    std::vector<SampledFrame> frames = sample_frames(views, shaped, 0, options);
     for (const RelaxView& view : views) {
         const int count = view.frames.frame_count();
-        std::vector<int> known = evenly_chosen_frames(count, options.settling_frames);
+        std::vector<int> known = evenly_chosen_frames(count, std::max(shaped, 1));
         if (options.reference_frame) known.push_back(*options.reference_frame);
         for (const int frame : evenly_chosen_frames(count, options.watched_frames)) {
             if (std::find(known.begin(), known.end(), frame) != known.end()) continue;
@@ -313,24 +314,25 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
                                const Topology& topology, const IntrinsicMetric& metric,
                                const RelaxOptions& options, const Context& context) {
     constexpr double shape_weight = 3;
+    constexpr double farthest_shape_weight = 1.8;
     constexpr double longest_stretch = 4;
     constexpr double held_share = 0.85;
-    constexpr double settled_share = 0.85;
-    // Of what closes gaps once more at the end.
-    constexpr double closing_shape_weight = 1;
-    constexpr double least_shape_weight = 3;
+    constexpr double settled_share = 0.7;
+    constexpr double closed_share = 0.8;
     constexpr double few_far = 0.006;
-    constexpr double many_far = 0.015;
     constexpr double tightening = 0.88;
     constexpr double weight_of_distance = 0.35;
+    constexpr double farthest_share = 0.97;
+    constexpr double least_limit_share = 0.9;
     SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
                          watched_frames(views, options), static_cast<int>(views.size()));
     sliding.let_slide(options.line_edges);
     const double limit = options.distance_limit * sliding.mean_edge_length();
-    // Shapes count in fewer frames than distances do, and have to hold their own.
+    // Where shapes count in fewer frames than distances do, they have to hold their own: above all
+    // at first, when most moves.
+    const double frames_per_shaped = sliding.frames_per_shaped();
     const auto gaps_within = [&](double gap_limit, double weight) {
-        return GapOptions{gap_limit, true, options.drags_patches,
-                          std::max(weight * sliding.frames_per_shaped(), least_shape_weight),
+        return GapOptions{gap_limit, true, options.drags_patches, weight * frames_per_shaped,
                           longest_stretch};
     };
     const auto share_of_far = [&](const GapsLeft& left) {
@@ -339,25 +341,38 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
         return static_cast<double>(far) / static_cast<double>(quads.Q.rows());
     };
     // Less is better. Angles go with the root of the cost.
-    const auto grade = [&](const GapsLeft& left, double gap_limit) {
-        return std::sqrt(sliding.shape_cost()) *
-               std::pow(gap_limit * left.mean_farthest, weight_of_distance);
+    const auto grade = [&](double farthest) {
+        return std::sqrt(sliding.shape_cost()) * std::pow(farthest, weight_of_distance);
     };
-    const int between = std::max(1, options.watched_rounds / 2);
-    const GapsLeft settled = settle(
-        sliding, limit, {options.watched_rounds, between, held_share, true},
-        gaps_within(options.gap_limit, shape_weight), {"settling", 0, settled_share}, context);
-    const double settled_grade = grade(settled, options.gap_limit);
-    // What is left is worth more of the shapes, unless quads are too coarse for much of it. Where
-    // nearly nothing is, a lower limit is reached for.
-    if (share_of_far(settled) <= many_far) {
+    const int between = std::max(1, options.watched_rounds / 3);
+    const GapsLeft settled =
+        settle(sliding, limit, {options.watched_rounds, between, held_share, true},
+               gaps_within(options.gap_limit, shape_weight * frames_per_shaped),
+               {"settling", 0, settled_share}, context);
+    // In mean lengths of edges, the largest in a frame, mean over all frames.
+    double farthest = settled.mean_farthest * options.gap_limit;
+    // Where nearly nothing is left, a lower limit is reached for.
+    if (share_of_far(settled) <= few_far) {
+        const double settled_grade = grade(farthest);
         const SlidingQuads::State before = sliding.state();
-        const double closing_limit =
-            options.gap_limit * (share_of_far(settled) <= few_far ? tightening : 1);
+        const double closing_limit = tightening * options.gap_limit;
         const GapsLeft closed =
-            sliding.close_gaps(gaps_within(closing_limit, closing_shape_weight), context);
-        if (grade(closed, closing_limit) >= settled_grade) sliding.restore(before);
+            sliding.close_gaps(gaps_within(closing_limit, shape_weight), context);
+        const double closed_farthest = closed.mean_farthest * closing_limit;
+        if (grade(closed_farthest) < settled_grade) {
+            farthest = closed_farthest;
+        } else {
+            sliding.restore(before);
+        }
     }
+    context.report_progress("settling", closed_share);
+    // The farthest place of a frame says how close it is; these are few.
+    GapOptions at_farthest =
+        gaps_within(std::max(farthest_share * farthest, least_limit_share * options.gap_limit),
+                    farthest_shape_weight);
+    at_farthest.only_farthest = true;
+    // Twice: what moves may leave the input between the points that were looked at.
+    for (int time = 0; time < 2; ++time) sliding.close_gaps(at_farthest, context);
     context.report_progress("settling", 1);
     return sliding.quads();
 }

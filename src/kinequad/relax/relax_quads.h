@@ -19,9 +19,10 @@ struct RelaxOptions {
     int settling_frames = 0;
     /// Passes over all vertices between these last gaps.
     int settling_rounds = 8;
-    /// Frames of each view that `settle_in_more_frames` looks at beside those whose shapes count,
-    /// and its passes over all vertices.
+    /// Frames of each view that `settle_in_more_frames` looks at, those of them, at most, in which
+    /// shapes of quads count, and its passes over all vertices.
     int watched_frames = 0;
+    int shaped_frames = 64;
     int watched_rounds = 8;
     /// The reference is this frame, which is not looked at twice; empty where it is no frame.
     std::optional<int> reference_frame = 0;
@@ -64,9 +65,10 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
 
 /// Closes gaps between relaxed quads and the input in up to `watched_frames` of each view, evenly
 /// chosen, so that no pose between those that `relax_quads` has seen leaves the input by more:
-/// shapes of quads count in `settling_frames` of them, the references no more than the rest. Then
-/// distances count more, where nearly all gaps close with a lower limit, and what comes of it is
-/// kept if it is worth it. Arguments, result and exceptions as there. docs/relaxation.md
+/// shapes of quads count in up to `shaped_frames` of them, the references no more than the rest.
+/// Then, where nearly all gaps close, a lower limit is reached for, and what comes of it is kept if
+/// it is worth it; at last what is farthest in a frame comes closer. Arguments, result and
+/// exceptions as there. docs/relaxation.md
 QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxView>& views,
                                const Topology& topology, const IntrinsicMetric& metric,
                                const RelaxOptions& options, const Context& context);

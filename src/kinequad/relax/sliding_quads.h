@@ -59,6 +59,10 @@ struct GapOptions {
     /// Length beyond which no move makes the longest edge at a vertex longer in any frame with a
     /// weight, in mean lengths.
     double most_stretch = kinequad::most_stretch;
+    /// Whether of all quads that are far those alone are looked at that are the farthest in some
+    /// frame, and again until none of these comes closer: more closely than others, with patches
+    /// moving in more ways and vertices farther around taking part.
+    bool only_farthest = false;
 };
 
 /// Distances between quads and input, in units of the limit that was asked for.
@@ -229,7 +233,8 @@ private:
     bool improve(int v, Aim aim, double distance_limit);
     bool search_around(int v, const Steps& steps, const std::function<double(double)>& cost);
     bool close_gaps_at(int v, Gaps& gaps, const Context& context);
-    bool drag(int v, Gaps& gaps, const Context& context);
+    bool drag(int v, const std::vector<double>& following_shares, Gaps& gaps,
+              const Context& context);
     bool move_onto(int v, const SurfacePoint& goal);
     int nearest_in_all_frames(int x) const;
     int cover_extremities_in(const Reference& reference, double limit, const Context& context);

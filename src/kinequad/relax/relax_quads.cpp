@@ -324,13 +324,17 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     constexpr double weight_of_distance = 0.35;
     constexpr double farthest_share = 0.97;
     constexpr double least_limit_share = 0.9;
-    SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
-                         watched_frames(views, options), static_cast<int>(views.size()));
-    sliding.let_slide(options.line_edges);
-    const double limit = options.distance_limit * sliding.mean_edge_length();
+    const auto start = [&](const QuadMesh& from) {
+        SlidingQuads sliding(from, topology, metric, views.front().frames.triangles(),
+                             watched_frames(views, options), static_cast<int>(views.size()));
+        sliding.let_slide(options.line_edges);
+        return sliding;
+    };
+    std::optional<SlidingQuads> sliding(start(quads));
+    const double limit = options.distance_limit * sliding->mean_edge_length();
     // Where shapes count in fewer frames than distances do, they have to hold their own: above all
     // at first, when most moves.
-    const double frames_per_shaped = sliding.frames_per_shaped();
+    const double frames_per_shaped = sliding->frames_per_shaped();
     const auto gaps_within = [&](double gap_limit, double weight) {
         return GapOptions{gap_limit, true, options.drags_patches, weight * frames_per_shaped,
                           longest_stretch};
@@ -342,11 +346,11 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     };
     // Less is better. Angles go with the root of the cost.
     const auto grade = [&](double farthest) {
-        return std::sqrt(sliding.shape_cost()) * std::pow(farthest, weight_of_distance);
+        return std::sqrt(sliding->shape_cost()) * std::pow(farthest, weight_of_distance);
     };
     const int between = std::max(1, options.watched_rounds / 3);
     const GapsLeft settled =
-        settle(sliding, limit, {options.watched_rounds, between, held_share, true},
+        settle(*sliding, limit, {options.watched_rounds, between, held_share, true},
                gaps_within(options.gap_limit, shape_weight * frames_per_shaped),
                {"settling", 0, settled_share}, context);
     // In mean lengths of edges, the largest in a frame, mean over all frames.
@@ -354,27 +358,31 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     // Where nearly nothing is left, a lower limit is reached for.
     if (share_of_far(settled) <= few_far) {
         const double settled_grade = grade(farthest);
-        const SlidingQuads::State before = sliding.state();
+        const SlidingQuads::State before = sliding->state();
         const double closing_limit = tightening * options.gap_limit;
-        const GapsLeft closed =
-            sliding.close_gaps(gaps_within(closing_limit, shape_weight), context);
-        const double closed_farthest = closed.mean_farthest * closing_limit;
+        const GapsLeft left =
+            sliding->close_gaps(gaps_within(closing_limit, shape_weight), context);
+        const double closed_farthest = left.mean_farthest * closing_limit;
         if (grade(closed_farthest) < settled_grade) {
             farthest = closed_farthest;
         } else {
-            sliding.restore(before);
+            sliding->restore(before);
         }
     }
     context.report_progress("settling", closed_share);
+    // Lengths of edges are those of now from here on.
+    const QuadMesh closed = sliding->quads();
+    sliding.reset();
+    sliding.emplace(start(closed));
     // The farthest place of a frame says how close it is; these are few.
     GapOptions at_farthest =
         gaps_within(std::max(farthest_share * farthest, least_limit_share * options.gap_limit),
                     farthest_shape_weight);
     at_farthest.only_farthest = true;
     // Twice: what moves may leave the input between the points that were looked at.
-    for (int time = 0; time < 2; ++time) sliding.close_gaps(at_farthest, context);
+    for (int time = 0; time < 2; ++time) sliding->close_gaps(at_farthest, context);
     context.report_progress("settling", 1);
-    return sliding.quads();
+    return sliding->quads();
 }
 
 }  // namespace kinequad

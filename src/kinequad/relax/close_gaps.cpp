@@ -1,6 +1,5 @@
 // What relaxation does about the distance between quads and input in all frames.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -26,17 +26,6 @@ constexpr double worth_a_closer_look = 0.8;
 constexpr double told_apart = 0.08;
 constexpr double finely_told_apart = 0.04;
 
-/// Between points on edges of the input, in mean lengths of the quads' edges; and how many of those
-/// that are close to one another there are at most, over all frames.
-constexpr double spacing = 0.7;
-constexpr double close_spacing = 0.35;
-constexpr std::size_t most_close_points = 2'000'000;
-
-/// Between points inside triangles, in mean lengths of the quads' edges, and how far, in units, a
-/// corner or a point of an edge at one is from the quads where there are any.
-constexpr double inner_spacing = 0.12;
-constexpr double worth_points_inside = 0.7;
-
 /// Where places are compared, the frames with the largest distances are enough at first.
 constexpr std::size_t compared_frames = 3;
 
@@ -77,14 +66,9 @@ SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
         look_at_quads(f, context);
         look_at_points(f, context);
     });
-    if (!is_rough_ || (has_close_points_ && !options.only_farthest)) return;
-    // There the middle of an edge may be the farthest, or, where points on edges leave no more than
-    // that to find, one inside a triangle.
-    if (!has_close_points_) {
-        choose_points_on_edges(close_spacing, vertices_beyond(roughly_near_share / options.limit));
-    } else {
-        choose_points_inside(vertices_beyond(worth_points_inside));
-    }
+    const std::size_t known = points_.size();
+    choose_more_points(options);
+    if (points_.size() == known) return;
     parallel_for(views_.size(), 1, context,
                  [&](std::size_t f, std::size_t) { look_at_points(f, context); });
 }
@@ -311,90 +295,6 @@ void SlidingQuads::Gaps::keep(const Surroundings& around, std::size_t f, const L
         view.nearest[at(x)] = q;
         view.points_of[at(q)].push_back(x);
         view.of_point[at(x)] = std::sqrt(squared);
-    }
-}
-
-/// All vertices, and points between the ends of edges that are long for the quads: closer to one
-/// another where distances count in all frames and there are not too many of them.
-void SlidingQuads::Gaps::choose_points() {
-    const Topology& topology = sliding_.topology_;
-    for (int v = 0; v < topology.vertex_count; ++v) {
-        if (topology.vertex_half_edge[at(v)] >= 0) points_.push_back({v, v, v, 0, 0});
-    }
-    const std::vector<char> all(at(topology.vertex_count), 1);
-    const std::size_t vertices = points_.size();
-    if (is_rough_) {
-        choose_points_on_edges(close_spacing, all);
-        if (points_.size() * sliding_.frames_.size() <= most_close_points) return;
-        points_.resize(vertices);
-    }
-    choose_points_on_edges(spacing, all);
-    has_close_points_ = false;
-}
-
-/// The vertices (v) that have, or have on an edge of theirs, a point that is farther than
-/// `distance` units in some frame.
-std::vector<char> SlidingQuads::Gaps::vertices_beyond(double distance) const {
-    std::vector<char> is_beyond(at(sliding_.topology_.vertex_count), 0);
-    for (std::size_t x = 0; x < points_.size(); ++x) {
-        if (!std::any_of(views_.begin(), views_.end(),
-                         [&](const View& view) { return view.of_point[x] > distance * view.unit; }))
-            continue;
-        for (const int v : {points_[x].a, points_[x].b}) is_beyond[at(v)] = 1;
-    }
-    return is_beyond;
-}
-
-/// Points that part edges with an end in `is_wanted` (v) into pieces of at most `longest` mean
-/// lengths of the quads' edges in all frames.
-void SlidingQuads::Gaps::choose_points_on_edges(double longest,
-                                                const std::vector<char>& is_wanted) {
-    constexpr double most_parts = 8;
-    const Topology& topology = sliding_.topology_;
-    for (int h = 0; h < 3 * topology.triangle_count; ++h) {
-        if (topology.twin[at(h)] > h) continue;
-        const int a = sliding_.F_(h / 3, h % 3);
-        const int b = sliding_.F_(h / 3, (h + 1) % 3);
-        if (!is_wanted[at(a)] && !is_wanted[at(b)]) continue;
-        double length = 0;
-        for (const Frame& frame : sliding_.frames_) {
-            const double here = (frame.input.row(a) - frame.input.row(b)).norm();
-            length = std::max(length, here / frame.mean_edge);
-        }
-        const int parts = static_cast<int>(std::min(most_parts, std::ceil(length / longest)));
-        for (int i = 1; i < parts; ++i) {
-            points_.push_back({a, b, a, static_cast<double>(i) / parts, 0});
-        }
-    }
-}
-
-/// Points that part triangles with a corner in `is_wanted` (v) into ones with sides of at most
-/// `inner_spacing` mean lengths of the quads' edges in all frames.
-void SlidingQuads::Gaps::choose_points_inside(const std::vector<char>& is_wanted) {
-    constexpr double most_parts = 8;
-    const Triangles& F = sliding_.F_;
-    for (Eigen::Index t = 0; t < F.rows(); ++t) {
-        const std::array corner{F(t, 0), F(t, 1), F(t, 2)};
-        if (std::none_of(corner.begin(), corner.end(),
-                         [&](int v) { return is_wanted[at(v)] != 0; }))
-            continue;
-        double longest = 0;
-        for (const Frame& frame : sliding_.frames_) {
-            for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {2, 0}}) {
-                const double length =
-                    (frame.input.row(corner[at(a)]) - frame.input.row(corner[at(b)])).norm();
-                longest = std::max(longest, length / frame.mean_edge);
-            }
-        }
-        const int parts =
-            static_cast<int>(std::min(most_parts, std::ceil(longest / inner_spacing)));
-        for (int i = 0; i <= parts; ++i) {
-            for (int j = 0; j <= parts - i; ++j) {
-                if (i == parts || j == parts || i + j == 0) continue;
-                points_.push_back({corner[0], corner[1], corner[2], static_cast<double>(i) / parts,
-                                   static_cast<double>(j) / parts});
-            }
-        }
     }
 }
 

@@ -105,6 +105,7 @@ private:
     double squared_distance_with(double misfit) const;
     double shape_cost(const Surroundings& around) const;
     void choose_points();
+    void choose_more_points(const GapOptions& options);
     std::vector<char> vertices_beyond(double distance) const;
     void choose_points_on_edges(double longest, const std::vector<char>& is_wanted);
     void choose_points_inside(const std::vector<char>& is_wanted);

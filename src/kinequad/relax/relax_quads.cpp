@@ -273,17 +273,24 @@ void warn_of_folded(const SlidingQuads& sliding, const Context& context) {
         fmt::format("relaxation: {} quads stay folded in the reference frame", folded));
 }
 
+/// Quads that are to slide over the surface, watched in `frames` of `views`.
+SlidingQuads start_sliding(const QuadMesh& quads, std::vector<SampledFrame> frames,
+                           const std::vector<RelaxView>& views, const Topology& topology,
+                           const IntrinsicMetric& metric, const RelaxOptions& options) {
+    SlidingQuads sliding(quads, topology, metric, views.front().frames.triangles(),
+                         std::move(frames), static_cast<int>(views.size()));
+    sliding.let_slide(options.line_edges);
+    return sliding;
+}
+
 }  // namespace
 
 QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
                      const Topology& topology, const IntrinsicMetric& metric,
                      const RelaxOptions& options, const Context& context) {
     const auto start = [&](const QuadMesh& from, int frames) {
-        SlidingQuads sliding(from, topology, metric, views.front().frames.triangles(),
-                             sample_frames(views, frames, reference_share, options),
-                             static_cast<int>(views.size()));
-        sliding.let_slide(options.line_edges);
-        return sliding;
+        return start_sliding(from, sample_frames(views, frames, reference_share, options), views,
+                             topology, metric, options);
     };
     std::optional<SlidingQuads> sliding(start(quads, options.sampled_frames));
     const double limit = options.distance_limit * sliding->mean_edge_length();
@@ -325,10 +332,8 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     constexpr double farthest_share = 0.97;
     constexpr double least_limit_share = 0.9;
     const auto start = [&](const QuadMesh& from) {
-        SlidingQuads sliding(from, topology, metric, views.front().frames.triangles(),
-                             watched_frames(views, options), static_cast<int>(views.size()));
-        sliding.let_slide(options.line_edges);
-        return sliding;
+        return start_sliding(from, watched_frames(views, options), views, topology, metric,
+                             options);
     };
     std::optional<SlidingQuads> sliding(start(quads));
     const double limit = options.distance_limit * sliding->mean_edge_length();

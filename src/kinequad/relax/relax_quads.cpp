@@ -323,6 +323,7 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     constexpr double shape_weight = 3;
     constexpr double farthest_shape_weight = 1.8;
     constexpr double longest_stretch = 4;
+    constexpr double longest_stretch_at_last = 5;
     constexpr double held_share = 0.85;
     constexpr double settled_share = 0.7;
     constexpr double closed_share = 0.8;
@@ -384,8 +385,12 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
         gaps_within(std::max(farthest_share * farthest, least_limit_share * options.gap_limit),
                     farthest_shape_weight);
     at_farthest.only_farthest = true;
-    // Twice: what moves may leave the input between the points that were looked at.
-    for (int time = 0; time < 2; ++time) sliding->close_gaps(at_farthest, context);
+    // Twice: what moves may leave the input between the points that were looked at, and what stays
+    // may lie beside edges of the input that no shorter quad lets it come close to.
+    for (const double stretch : {longest_stretch, longest_stretch_at_last}) {
+        at_farthest.most_stretch = stretch;
+        sliding->close_gaps(at_farthest, context);
+    }
     context.report_progress("settling", 1);
     return sliding->quads();
 }

@@ -119,7 +119,8 @@ TEST(CloseGaps, FindsTheFarthestPlaceInsideATriangleOfTheInput) {
             const double farthest = std::sqrt(quads.find(middle).squared_distance);
             SlidingQuads sliding = holed.sliding({{grid.mesh.V, 1}});
             const double unit = limit * sliding.mean_edge_length();
-            const GapOptions options{.limit = limit, .is_rough = true, .only_farthest = true};
+            const GapOptions options{
+                .limit = limit, .every_frame_counts = true, .only_farthest = true};
             EXPECT_NEAR(unit * largest(sliding.close_gaps(options, {}).at_quads), farthest, 0.012)
                 << t << " with a radius of " << radius;
         }
@@ -168,7 +169,7 @@ TEST(CloseGaps, BeyondTheLimitCountsForMoreWhenRough) {
     for (const double weight : {1., 3., 10., 30., 100.}) {
         const double exact = left_at_spike({.limit = 0.45, .shape_weight = weight});
         const double rough =
-            left_at_spike({.limit = 0.45, .is_rough = true, .shape_weight = weight});
+            left_at_spike({.limit = 0.45, .every_frame_counts = true, .shape_weight = weight});
         if (exact > 1) {
             EXPECT_LE(rough, exact + 1e-9) << weight;
         }
@@ -219,8 +220,8 @@ TEST(CloseGaps, LooksAgainWhereAnotherFrameForbidsThePlaceWhenRough) {
         };
         SlidingQuads sliding = grid.sliding(
             {{grid.mesh.V, 1}, {grid.mesh.V, 1}, {grid.mesh.V, 1}, {landscape(40, pyramid).V, 1}});
-        const GapsLeft left =
-            sliding.close_gaps({.limit = limit, .is_rough = true, .shape_weight = 1e-3}, {});
+        const GapsLeft left = sliding.close_gaps(
+            {.limit = limit, .every_frame_counts = true, .shape_weight = 1e-3}, {});
         EXPECT_NEAR(limit * left.mean_farthest, roughly_near_share, 1e-9) << height;
     }
 }
@@ -241,7 +242,8 @@ TEST(CloseGaps, MendsTheFarthestPlaceOfEveryFrameAlone) {
     constexpr std::size_t inner_quad = 77;
     const auto left_inside = [&](std::vector<SampledFrame> frames, bool only_farthest) {
         SlidingQuads sliding = grid.sliding(std::move(frames));
-        const GapOptions options{.limit = 0.3, .is_rough = true, .only_farthest = only_farthest};
+        const GapOptions options{
+            .limit = 0.3, .every_frame_counts = true, .only_farthest = only_farthest};
         return sliding.close_gaps(options, {}).at_quads[inner_quad];
     };
     const double mended = left_inside({{grid.mesh.V, 1}}, false);

@@ -197,7 +197,7 @@ RelaxOptions relax_options(const Options& run, int vertex_count) {
     constexpr int most_positions = 2'000'000;
     const int frames_in_bounds = most_positions / std::max(1, vertex_count);
     options.settling_frames = std::min(most_frames, frames_in_bounds);
-    options.watched_frames = frames_in_bounds;
+    options.watched_frames = std::max(options.sampled_frames, frames_in_bounds);
     options.watched_rounds = 9 * run.relax_rounds / 2;
     const bool is_mirrored = run.symmetry == SymmetryMode::exact;
     options.rounds = run.relax_rounds * (is_mirrored ? 9 : 8) / 4;

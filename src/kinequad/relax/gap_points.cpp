@@ -23,6 +23,14 @@ constexpr std::size_t most_close_points = 2'000'000;
 constexpr double inner_spacing = 0.12;
 constexpr double worth_points_inside = 0.7;
 
+/// Edges of the input and sides of its triangles are parted into at most so many pieces, however
+/// long they are.
+constexpr double most_parts = 8;
+
+/// Where what is far asks for more points than this, over all frames, there are none but those that
+/// are there anyway, so that memory stays within bounds.
+constexpr std::size_t most_points = 20'000'000;
+
 }  // namespace
 
 /// All vertices, and points between the ends of edges that are long for the quads: closer to one
@@ -34,7 +42,7 @@ void SlidingQuads::Gaps::choose_points() {
     }
     const std::vector<char> all(at(topology.vertex_count), 1);
     const std::size_t vertices = points_.size();
-    if (is_rough_) {
+    if (every_frame_counts_) {
         choose_points_on_edges(close_spacing, all);
         if (points_.size() * sliding_.frames_.size() <= most_close_points) return;
         points_.resize(vertices);
@@ -45,12 +53,14 @@ void SlidingQuads::Gaps::choose_points() {
 
 /// Points where, by what `options` ask for and those before show, others may be the farthest.
 void SlidingQuads::Gaps::choose_more_points(const GapOptions& options) {
-    if (!is_rough_) return;
+    if (!every_frame_counts_) return;
+    const std::size_t known = points_.size();
     if (!has_close_points_) {
         choose_points_on_edges(close_spacing, vertices_beyond(roughly_near_share / options.limit));
     } else if (options.only_farthest) {
         choose_points_inside(vertices_beyond(worth_points_inside));
     }
+    if (points_.size() * sliding_.frames_.size() > most_points) points_.resize(known);
 }
 
 /// The vertices (v) that have, or have on an edge of theirs, a point that is farther than
@@ -58,19 +68,19 @@ void SlidingQuads::Gaps::choose_more_points(const GapOptions& options) {
 std::vector<char> SlidingQuads::Gaps::vertices_beyond(double distance) const {
     std::vector<char> is_beyond(at(sliding_.topology_.vertex_count), 0);
     for (std::size_t x = 0; x < points_.size(); ++x) {
-        if (!std::any_of(views_.begin(), views_.end(),
-                         [&](const View& view) { return view.of_point[x] > distance * view.unit; }))
+        if (!std::any_of(distances_.begin(), distances_.end(), [&](const FrameDistances& here) {
+                return here.of_point[x] > distance * here.unit;
+            }))
             continue;
         for (const int v : {points_[x].a, points_[x].b}) is_beyond[at(v)] = 1;
     }
     return is_beyond;
 }
 
-/// Points that part edges with an end in `is_wanted` (v) into pieces of at most `longest` mean
-/// lengths of the quads' edges in all frames.
+/// Points that part edges with an end in `is_wanted` (v) into equal pieces of at most `longest`
+/// mean lengths of the quads' edges in all frames, but into no more than `most_parts`.
 void SlidingQuads::Gaps::choose_points_on_edges(double longest,
                                                 const std::vector<char>& is_wanted) {
-    constexpr double most_parts = 8;
     const Topology& topology = sliding_.topology_;
     for (int h = 0; h < 3 * topology.triangle_count; ++h) {
         if (topology.twin[at(h)] > h) continue;
@@ -90,9 +100,9 @@ void SlidingQuads::Gaps::choose_points_on_edges(double longest,
 }
 
 /// Points that part triangles with a corner in `is_wanted` (v) into ones with sides of at most
-/// `inner_spacing` mean lengths of the quads' edges in all frames.
+/// `inner_spacing` mean lengths of the quads' edges in all frames, but sides into no more than
+/// `most_parts`.
 void SlidingQuads::Gaps::choose_points_inside(const std::vector<char>& is_wanted) {
-    constexpr double most_parts = 8;
     const Triangles& F = sliding_.F_;
     for (Eigen::Index t = 0; t < F.rows(); ++t) {
         const std::array corner{F(t, 0), F(t, 1), F(t, 2)};

@@ -54,45 +54,45 @@ SlidingQuads::Gaps::Gaps(const SlidingQuads& quads, const GapOptions& options,
       shape_weight_(options.shape_weight),
       most_stretch_(options.most_stretch),
       told_apart_(options.only_farthest ? finely_told_apart : told_apart),
-      is_rough_(options.is_rough) {
+      every_frame_counts_(options.every_frame_counts) {
     choose_points();
     choose_sides();
-    views_.resize(sliding_.frames_.size());
-    parallel_for(views_.size(), 1, context, [&](std::size_t f, std::size_t) {
+    distances_.resize(sliding_.frames_.size());
+    parallel_for(distances_.size(), 1, context, [&](std::size_t f, std::size_t) {
         const Frame& frame = sliding_.frames_[f];
-        views_[f].unit = options.limit * frame.mean_edge;
-        views_[f].squared_near =
-            square((options.is_rough ? roughly_near_share : near_share) * frame.mean_edge);
+        distances_[f].unit = options.limit * frame.mean_edge;
+        distances_[f].squared_near = square(
+            (options.every_frame_counts ? roughly_near_share : near_share) * frame.mean_edge);
         look_at_quads(f, context);
         look_at_points(f, context);
     });
     const std::size_t known = points_.size();
     choose_more_points(options);
     if (points_.size() == known) return;
-    parallel_for(views_.size(), 1, context,
+    parallel_for(distances_.size(), 1, context,
                  [&](std::size_t f, std::size_t) { look_at_points(f, context); });
 }
 
 /// What a distance counts whose square is this many squared units.
 double SlidingQuads::Gaps::misfit_of(double squared) const {
     const double eighth_power = square(square(squared));
-    return is_rough_ ? square(eighth_power) : eighth_power;
+    return every_frame_counts_ ? square(eighth_power) : eighth_power;
 }
 
 /// The square of the distance that counts this much, in squared units.
 double SlidingQuads::Gaps::squared_distance_with(double misfit) const {
-    return std::sqrt(std::sqrt(is_rough_ ? std::sqrt(misfit) : misfit));
+    return std::sqrt(std::sqrt(every_frame_counts_ ? std::sqrt(misfit) : misfit));
 }
 
 std::vector<double> SlidingQuads::Gaps::at_quads() const {
-    std::vector<double> farthest(views_[0].of_quad.size(), 0);
-    for (const View& view : views_) {
+    std::vector<double> farthest(distances_[0].of_quad.size(), 0);
+    for (const FrameDistances& in_frame : distances_) {
         for (std::size_t q = 0; q < farthest.size(); ++q) {
-            farthest[q] = std::max(farthest[q], view.of_quad[q] / view.unit);
+            farthest[q] = std::max(farthest[q], in_frame.of_quad[q] / in_frame.unit);
         }
         for (std::size_t x = 0; x < points_.size(); ++x) {
-            double& of_nearest = farthest[at(view.nearest[x])];
-            of_nearest = std::max(of_nearest, view.of_point[x] / view.unit);
+            double& of_nearest = farthest[at(in_frame.nearest[x])];
+            of_nearest = std::max(of_nearest, in_frame.of_point[x] / in_frame.unit);
         }
     }
     return farthest;
@@ -100,13 +100,13 @@ std::vector<double> SlidingQuads::Gaps::at_quads() const {
 
 double SlidingQuads::Gaps::mean_farthest() const {
     double sum = 0;
-    for (const View& view : views_) {
+    for (const FrameDistances& in_frame : distances_) {
         double farthest = 0;
-        for (const double distance : view.of_quad) farthest = std::max(farthest, distance);
-        for (const double distance : view.of_point) farthest = std::max(farthest, distance);
-        sum += farthest / view.unit;
+        for (const double distance : in_frame.of_quad) farthest = std::max(farthest, distance);
+        for (const double distance : in_frame.of_point) farthest = std::max(farthest, distance);
+        sum += farthest / in_frame.unit;
     }
-    return sum / static_cast<double>(views_.size());
+    return sum / static_cast<double>(distances_.size());
 }
 
 std::vector<int> SlidingQuads::Gaps::quads_beyond(double distance) const {
@@ -124,11 +124,11 @@ std::vector<int> SlidingQuads::Gaps::quads_beyond(double distance) const {
 
 std::vector<int> SlidingQuads::Gaps::farthest_quads() const {
     std::vector<int> quads;
-    for (const View& view : views_) {
-        const auto quad = std::max_element(view.of_quad.begin(), view.of_quad.end());
-        const auto point = std::max_element(view.of_point.begin(), view.of_point.end());
-        quads.push_back(*quad >= *point ? static_cast<int>(quad - view.of_quad.begin())
-                                        : view.nearest[at(point - view.of_point.begin())]);
+    for (const FrameDistances& in_frame : distances_) {
+        const auto quad = std::max_element(in_frame.of_quad.begin(), in_frame.of_quad.end());
+        const auto point = std::max_element(in_frame.of_point.begin(), in_frame.of_point.end());
+        quads.push_back(*quad >= *point ? static_cast<int>(quad - in_frame.of_quad.begin())
+                                        : in_frame.nearest[at(point - in_frame.of_point.begin())]);
     }
     sort_unique(quads);
     return quads;
@@ -152,19 +152,19 @@ SlidingQuads::Gaps::Surroundings SlidingQuads::Gaps::surroundings(
     });
     std::vector<std::pair<double, std::size_t>> order;
     double misfit = 0;
-    for (std::size_t f = 0; f < views_.size(); ++f) {
-        const View& view = views_[f];
+    for (std::size_t f = 0; f < distances_.size(); ++f) {
+        const FrameDistances& in_frame = distances_[f];
         std::vector<int>& points = around.points.emplace_back();
         double farthest = 0;
         for (const int q : around.quads) {
-            farthest = std::max(farthest, view.of_quad[at(q)]);
-            for (const int x : view.points_of[at(q)]) {
+            farthest = std::max(farthest, in_frame.of_quad[at(q)]);
+            for (const int x : in_frame.points_of[at(q)]) {
                 points.push_back(x);
-                farthest = std::max(farthest, view.of_point[at(x)]);
+                farthest = std::max(farthest, in_frame.of_point[at(x)]);
             }
         }
-        order.emplace_back(-farthest / view.unit, f);
-        misfit += misfit_of(square(farthest / view.unit));
+        order.emplace_back(-farthest / in_frame.unit, f);
+        misfit += misfit_of(square(farthest / in_frame.unit));
     }
     std::sort(order.begin(), order.end());
     for (const auto& [negative, f] : order) around.frames.push_back(f);
@@ -172,13 +172,13 @@ SlidingQuads::Gaps::Surroundings SlidingQuads::Gaps::surroundings(
     // The farthest first: most places that are no better show it there.
     for (std::size_t i = 0; i < around.compared; ++i) {
         const std::size_t f = around.frames[i];
-        const std::vector<double>& of_point = views_[f].of_point;
+        const std::vector<double>& of_point = distances_[f].of_point;
         std::sort(around.points[f].begin(), around.points[f].end(), [&](int x, int y) {
             return of_point[at(x)] != of_point[at(y)] ? of_point[at(x)] > of_point[at(y)] : x < y;
         });
     }
     around.cost = shape_cost(around) + misfit;
-    const View& worst = views_[around.frames.front()];
+    const FrameDistances& worst = distances_[around.frames.front()];
     std::sort(around.quads.begin(), around.quads.end(), [&](int q, int r) {
         const double of_q = worst.of_quad[at(q)];
         const double of_r = worst.of_quad[at(r)];
@@ -194,7 +194,7 @@ double SlidingQuads::Gaps::rough_cost(const Surroundings& around, double enough)
         const double left = enough - shape - misfit;
         if (left <= 0) break;
         const std::size_t f = around.frames[i];
-        const double squared_unit = square(views_[f].unit);
+        const double squared_unit = square(distances_[f].unit);
         const double too_far =
             left < infinity ? squared_unit * squared_distance_with(left) : infinity;
         misfit += misfit_of(squared_distance(around, f, too_far) / squared_unit);
@@ -204,7 +204,7 @@ double SlidingQuads::Gaps::rough_cost(const Surroundings& around, double enough)
 
 bool SlidingQuads::Gaps::take_best(Surroundings& around, const std::function<bool()>& move_to_best,
                                    const std::function<void()>& put_back, const Context& context) {
-    const int most_attempts = is_rough_ ? 3 : 1;
+    const int most_attempts = every_frame_counts_ ? 3 : 1;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
         const bool is_moved = move_to_best();
         const Verdict verdict =
@@ -227,7 +227,7 @@ SlidingQuads::Gaps::Verdict SlidingQuads::Gaps::take_if_better(Surroundings& aro
     double misfit = 0;
     std::vector<Look> seen;
     const auto of = [&](std::size_t i) {
-        return seen[i].farthest / square(views_[around.frames[i]].unit);
+        return seen[i].farthest / square(distances_[around.frames[i]].unit);
     };
     const auto compare_in_worst = [&] {
         std::size_t worst = around.compared;
@@ -239,10 +239,10 @@ SlidingQuads::Gaps::Verdict SlidingQuads::Gaps::take_if_better(Surroundings& aro
         ++around.compared;
         return Verdict::needs_a_frame;
     };
-    while (seen.size() < views_.size()) {
+    while (seen.size() < distances_.size()) {
         if (shape + misfit >= around.cost) break;
         const std::size_t first = seen.size();
-        seen.resize(std::min(views_.size(), first + frames_together));
+        seen.resize(std::min(distances_.size(), first + frames_together));
         parallel_for(seen.size() - first, frames_of_thread, context,
                      [&](std::size_t begin, std::size_t end) {
                          for (std::size_t i = first + begin; i < first + end; ++i) {
@@ -262,6 +262,7 @@ SlidingQuads::Gaps::Verdict SlidingQuads::Gaps::take_if_better(Surroundings& aro
 double SlidingQuads::Gaps::shape_cost(const Surroundings& around) const {
     double sum = 0;
     for (const Frame& frame : sliding_.shaped()) {
+        // The patch begins with the quads that change, in an order that no distance decides.
         for (std::size_t i = 0; i < around.quads.size(); ++i) {
             const QuadCorners corners = sliding_.corners_in(frame, around.patch[i]);
             sum += frame.weight * quad_cost(corners, relaxing_barrier);
@@ -277,24 +278,24 @@ SlidingQuads::Gaps::Look SlidingQuads::Gaps::look(const Surroundings& around, st
         seen.farthest = std::max(seen.farthest, seen.of_quad.back());
     }
     for (const int x : around.points[f]) {
-        seen.of_point.push_back(nearest_in(around.patch, x, f, views_[f].squared_near));
+        seen.of_point.push_back(nearest_in(around.patch, x, f, distances_[f].squared_near));
         seen.farthest = std::max(seen.farthest, seen.of_point.back().first);
     }
     return seen;
 }
 
 void SlidingQuads::Gaps::keep(const Surroundings& around, std::size_t f, const Look& seen) {
-    View& view = views_[f];
+    FrameDistances& in_frame = distances_[f];
     for (std::size_t i = 0; i < around.quads.size(); ++i) {
-        view.of_quad[at(around.quads[i])] = std::sqrt(seen.of_quad[i]);
-        view.points_of[at(around.quads[i])].clear();
+        in_frame.of_quad[at(around.quads[i])] = std::sqrt(seen.of_quad[i]);
+        in_frame.points_of[at(around.quads[i])].clear();
     }
     for (std::size_t i = 0; i < around.points[f].size(); ++i) {
         const int x = around.points[f][i];
         const auto [squared, q] = seen.of_point[i];
-        view.nearest[at(x)] = q;
-        view.points_of[at(q)].push_back(x);
-        view.of_point[at(x)] = std::sqrt(squared);
+        in_frame.nearest[at(x)] = q;
+        in_frame.points_of[at(q)].push_back(x);
+        in_frame.of_point[at(x)] = std::sqrt(squared);
     }
 }
 
@@ -314,31 +315,31 @@ void SlidingQuads::Gaps::choose_sides() {
 }
 
 void SlidingQuads::Gaps::look_at_quads(std::size_t f, const Context& context) {
-    View& view = views_[f];
+    FrameDistances& in_frame = distances_[f];
     const int quads = static_cast<int>(sliding_.quads_.Q.rows());
-    view.points_of.resize(at(quads));
+    in_frame.points_of.resize(at(quads));
     for (int q = 0; q < quads; ++q) {
         if (q % 4096 == 0) context.check_cancelled();
-        view.of_quad.push_back(std::sqrt(squared_distance_of(q, f)));
+        in_frame.of_quad.push_back(std::sqrt(squared_distance_of(q, f)));
     }
 }
 
 /// Looks at the points that have not been looked at in frame `f`.
 void SlidingQuads::Gaps::look_at_points(std::size_t f, const Context& context) {
     const Frame& frame = sliding_.frames_[f];
-    View& view = views_[f];
+    FrameDistances& in_frame = distances_[f];
     const ClosestPoints quads(frame.vertices, cut_quads(sliding_.quads_.Q, frame.vertices));
     int hint = -1;
-    for (std::size_t x = view.of_point.size(); x < points_.size(); ++x) {
+    for (std::size_t x = in_frame.of_point.size(); x < points_.size(); ++x) {
         if (x % 4096 == 0) context.check_cancelled();
         const Vector3 point = points_[x].position(frame.input);
-        const ClosestPoint closest = is_rough_
-                                         ? quads.find_unless_near(view.squared_near, point, hint)
-                                         : quads.find(point, hint);
+        const ClosestPoint closest =
+            every_frame_counts_ ? quads.find_unless_near(in_frame.squared_near, point, hint)
+                                : quads.find(point, hint);
         hint = closest.point.triangle;
-        view.nearest.push_back(hint / 2);
-        view.points_of[at(hint / 2)].push_back(static_cast<int>(x));
-        view.of_point.push_back(std::sqrt(closest.squared_distance));
+        in_frame.nearest.push_back(hint / 2);
+        in_frame.points_of[at(hint / 2)].push_back(static_cast<int>(x));
+        in_frame.of_point.push_back(std::sqrt(closest.squared_distance));
     }
 }
 
@@ -408,7 +409,7 @@ double SlidingQuads::Gaps::squared_distance_of(int quad, std::size_t f) const {
     const Frame& frame = sliding_.frames_[f];
     const QuadCorners p = sliding_.corners_in(frame, quad);
     const std::size_t k = end_of_cut(p);
-    double farthest = views_[f].squared_near;
+    double farthest = distances_[f].squared_near;
     const auto ask = [&](const Vector3& point, int hint) {
         const ClosestPoint found = frame.surface->find_unless_near(farthest, point, hint);
         const bool is_beyond = found.squared_distance > farthest;
@@ -439,10 +440,10 @@ double SlidingQuads::Gaps::squared_distance_of(int quad, std::size_t f) const {
     const bool is_second_far = ask((p[k] + p[k + 2] + p[(k + 3) % 4]) / 3, at_middle(4));
     const bool is_far = is_line_far || is_first_far || is_second_far;
     if (is_far) ask_on_lines({0.125, 0.375, 0.625, 0.875});
-    if (!is_rough_ || (!is_far && longest_line(p) <= densely_sampled * frame.mean_edge)) {
+    if (!every_frame_counts_ || (!is_far && longest_line(p) <= densely_sampled * frame.mean_edge)) {
         return farthest;
     }
-    const double worth_telling = square(worth_a_closer_look * views_[f].unit);
+    const double worth_telling = square(worth_a_closer_look * distances_[f].unit);
     double inside = std::max(farthest, worth_telling);
     for (const auto& corners :
          {std::array{p[k], p[k + 1], p[k + 2]}, {p[k], p[k + 2], p[(k + 3) % 4]}}) {

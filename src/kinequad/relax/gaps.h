@@ -52,8 +52,8 @@ public:
     /// Moves to the best place by `rough_cost`, if there is one, with `move_to_best`, which says
     /// whether there is, and looks again at what has changed. Where the cost over all frames is
     /// less than it was before anything moved, keeps what it sees and returns true. Where it is
-    /// not, the first few frames may be no measure of many: with distances in all frames, another
-    /// place is looked for, compared in one more frame, twice at most. `put_back` undoes a move.
+    /// not, the first few frames may be no measure of many: where every frame counts, another place
+    /// is looked for, compared in one more frame, twice at most. `put_back` undoes a move.
     bool take_best(Surroundings& around, const std::function<bool()>& move_to_best,
                    const std::function<void()>& put_back, const Context& context);
 
@@ -75,7 +75,7 @@ private:
     };
 
     /// Distances in one frame, in units of the input.
-    struct View {
+    struct FrameDistances {
         double unit = 1;
         double squared_near = 0;                  ///< what is not farther counts as this
         std::vector<double> of_quad;              ///< q: from the quad to the input
@@ -123,11 +123,11 @@ private:
     double shape_weight_;
     double most_stretch_;
     double told_apart_;               ///< in mean lengths of edges
-    bool is_rough_;                   ///< see `GapOptions`
+    bool every_frame_counts_;         ///< see `GapOptions`
     bool has_close_points_ = true;    ///< whether points on all edges are close to one another
     std::vector<InputPoint> points_;  ///< of the input
     std::vector<char> owns_side_;     ///< corner c: whether the side that begins there is looked at
-    std::vector<View> views_;         ///< f
+    std::vector<FrameDistances> distances_;  ///< f
 };
 
 }  // namespace kinequad

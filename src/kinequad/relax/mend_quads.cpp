@@ -23,8 +23,7 @@ constexpr double least_covering_jacobian = 0.15;
 /// reached that.
 bool SlidingQuads::search_around(int v, const Steps& steps,
                                  const std::function<double(double)>& cost) {
-    const Positions& X = frames_[0].vertices;
-    const double size = (X.row(neighbour(*corners_of(v).begin(), 1)) - X.row(v)).norm();
+    const double size = first_side_length(v);
     const SurfacePoint before = quads_.vertex[at(v)];
     SurfacePoint best = before;
     bool is_moved = false;
@@ -77,8 +76,7 @@ std::vector<int> SlidingQuads::quads_around(int quad, int reach) const {
     return around;
 }
 
-int SlidingQuads::unfold_pass(double worst_jacobian, double safe_jacobian, int reach,
-                              const Context& context) {
+int SlidingQuads::unfold_pass(double safe_jacobian, int reach, const Context& context) {
     const FoldBarrier barrier{safe_jacobian, 100};
     // The references decide; the others only choose among what unfolds it alike.
     const auto cost = [&](int v, double most) {
@@ -94,7 +92,7 @@ int SlidingQuads::unfold_pass(double worst_jacobian, double safe_jacobian, int r
     };
     int folded = 0;
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-        if (least_jacobian_of(q) >= worst_jacobian) continue;
+        if (least_jacobian_of(q) >= safe_jacobian) continue;
         context.check_cancelled();
         for (const int v : vertices_around(q, reach)) {
             if (is_pinned_[at(v)] == 0)
@@ -142,12 +140,11 @@ double SlidingQuads::distance_of(int quad, double least_told) const {
     return std::sqrt(farthest);
 }
 
-int SlidingQuads::hug_surface(double limit, int reach, const Context& context) {
+void SlidingQuads::hug_surface(double limit, int reach, const Context& context) {
     constexpr double distance_weight = 40;
     const FoldBarrier barrier{0.2, 100};
-    int far = 0;
     for (int q = 0; q < static_cast<int>(quads_.Q.rows()); ++q) {
-        if (q % 256 == 0) context.check_cancelled();
+        context.check_cancelled();
         if (distance_of(q) <= limit) continue;
         for (const int v : vertices_around(q, reach)) {
             if (is_pinned_[at(v)]) continue;
@@ -161,9 +158,7 @@ int SlidingQuads::hug_surface(double limit, int reach, const Context& context) {
                 return sum;
             });
         }
-        far += distance_of(q) > limit ? 1 : 0;
     }
-    return far;
 }
 
 /// Puts vertex `v` on `goal` and lets its neighbours give way; takes all back where a quad gets too

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string_view>
 #include <utility>
 
@@ -13,11 +14,11 @@
 namespace kinequad {
 namespace {
 
-/// Scaled Jacobians below these are mended, in this order: the worst first, then what is close to
-/// it.
+/// Scaled Jacobians below these are mended: the first in as many passes as are usual, the other
+/// alone where quads stay folded after these.
 constexpr double safe_jacobian = 0.15;
 constexpr double least_jacobian = 0.05;
-constexpr int releasing_pass = 8;
+constexpr int usual_unfolding_passes = 8;
 /// Share of the time that passes before the surface is fitted take, about, and that before quads
 /// settle.
 constexpr double slide_share = 0.4;
@@ -28,21 +29,27 @@ constexpr int most_rounds_in_vain = 4;
 /// What a reference counts more for every frame chosen beside it, until quads settle in all frames.
 constexpr double reference_share = 0.25;
 
-/// The references, then `most` frames of each view, evenly chosen, but for the reference. These
+/// Some of so many frames, by number, in ascending order.
+using FrameChoice = std::function<std::vector<int>(int frame_count)>;
+
+/// At least one.
+FrameChoice evenly_chosen(int most) {
+    return [most](int count) { return evenly_chosen_frames(count, std::max(most, 1)); };
+}
+
+/// The references, then the frames of each view that `choose` gives, but for the reference. These
 /// weigh 1, references `share` more for each of them but the first.
-std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views, int most, double share,
+std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views,
+                                        const FrameChoice& choose, double share,
                                         const RelaxOptions& options) {
     std::vector<SampledFrame> sampled;
     sampled.reserve(views.size());
-    const auto chosen = [&](const RelaxView& view) {
-        return evenly_chosen_frames(view.frames.frame_count(), std::max(most, 1));
-    };
     for (const RelaxView& view : views) {
-        const double weight = share * static_cast<double>(chosen(view).size()) + 1 - share;
-        sampled.push_back({view.reference, weight});
+        const auto count = static_cast<double>(choose(view.frames.frame_count()).size());
+        sampled.push_back({view.reference, share * count + 1 - share});
     }
     for (const RelaxView& view : views) {
-        for (const int frame : chosen(view)) {
+        for (const int frame : choose(view.frames.frame_count())) {
             if (options.reference_frame == frame) continue;
             sampled.push_back({view.frames.read_frame(frame), 1});
         }
@@ -54,13 +61,21 @@ std::vector<SampledFrame> sample_frames(const std::vector<RelaxView>& views, int
 /// without weight, the rest.
 std::vector<SampledFrame> watched_frames(const std::vector<RelaxView>& views,
                                          const RelaxOptions& options) {
-    const int shaped = std::min(options.shaped_frames, options.watched_frames);
+    const FrameChoice watched = evenly_chosen(options.watched_frames);
+    const FrameChoice shaped = [&](int count) {
+        const std::vector<int> all = watched(count);
+        std::vector<int> some;
+        for (const int i : evenly_chosen(options.shaped_frames)(static_cast<int>(all.size()))) {
+            some.push_back(all[at(i)]);
+        }
+        return some;
+    };
     std::vector<SampledFrame> frames = sample_frames(views, shaped, 0, options);
     for (const RelaxView& view : views) {
         const int count = view.frames.frame_count();
-        std::vector<int> known = evenly_chosen_frames(count, std::max(shaped, 1));
+        std::vector<int> known = shaped(count);
         if (options.reference_frame) known.push_back(*options.reference_frame);
-        for (const int frame : evenly_chosen_frames(count, options.watched_frames)) {
+        for (const int frame : watched(count)) {
             if (std::find(known.begin(), known.end(), frame) != known.end()) continue;
             frames.push_back({view.frames.read_frame(frame), 0});
         }
@@ -71,8 +86,8 @@ std::vector<SampledFrame> watched_frames(const std::vector<RelaxView>& views,
 /// Opens folded quads; where the nearest vertices do not do it, ever more of them move.
 void unfold(SlidingQuads& sliding, int most_passes, const Context& context) {
     for (int pass = 0; pass < most_passes; ++pass) {
-        const double safe = pass < releasing_pass ? safe_jacobian : least_jacobian;
-        const int folded = sliding.unfold_pass(safe, safe, pass / 3, context);
+        const double safe = pass < usual_unfolding_passes ? safe_jacobian : least_jacobian;
+        const int folded = sliding.unfold_pass(safe, pass / 3, context);
         if (folded == 0 && pass > 0) break;
     }
 }
@@ -129,7 +144,7 @@ Fit keep_better_regions(SlidingQuads& sliding, const Fit& before, const Fit& now
 /// in creases and on tips, and keeps in every region what is best there.
 void fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
     const auto look = [&] { return judge(sliding, sliding.distances(context), limit); };
-    unfold(sliding, releasing_pass, context);
+    unfold(sliding, usual_unfolding_passes, context);
     Fit best = look();
     // One round brings most; more are for quads that stay folded.
     const auto is_done = [&](int round) {
@@ -149,7 +164,7 @@ void fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
         sliding.cover_extremities(limit, context);
         const bool is_last_resort = best.folded > 0 && round >= 2;
         if (is_last_resort) sliding.release();
-        unfold(sliding, is_last_resort ? most_unfolding_passes : releasing_pass, context);
+        unfold(sliding, is_last_resort ? most_unfolding_passes : usual_unfolding_passes, context);
         const SlidingQuads::State last = sliding.state();
         Fit better = keep_better_regions(sliding, best, look(), limit);
         ++rounds_in_vain;
@@ -161,7 +176,7 @@ void fit_surface(SlidingQuads& sliding, double limit, const Context& context) {
 }
 
 /// Part of a stage whose progress is reported.
-struct Stretch {
+struct ProgressSpan {
     std::string_view stage;
     double begin = 0;
     double end = 1;
@@ -189,7 +204,7 @@ bool start_again(SlidingQuads& sliding, const SlidingQuads::State& early,
     if (region.empty()) return false;
     sliding.restore(early, region);
     sliding.release();
-    unfold(sliding, releasing_pass, context);
+    unfold(sliding, usual_unfolding_passes, context);
     const GapsLeft left = sliding.close_gaps(gaps, context);
     const Fit now = judge(sliding, left.at_quads, 1);
     keep_better_regions(sliding, before, now, 1);
@@ -208,8 +223,8 @@ struct SettlingPasses {
 /// cost: vertices go on towards right angles, but for those of quads that are about to leave the
 /// surface, and gaps are closed again after every few passes. Returns what these leave.
 GapsLeft settle(SlidingQuads& sliding, double limit, const SettlingPasses& passes,
-                const GapOptions& gaps, const Stretch& stretch, const Context& context) {
-    stretch.report(0, context);
+                const GapOptions& gaps, const ProgressSpan& progress, const Context& context) {
+    progress.report(0, context);
     GapsLeft left = sliding.close_gaps(gaps, context);
     SlidingQuads::State before = sliding.state();
     for (int pass = 0; pass < passes.count; ++pass) {
@@ -226,7 +241,7 @@ GapsLeft settle(SlidingQuads& sliding, double limit, const SettlingPasses& passe
                 left = sliding.close_gaps(gaps, context);
             }
         }
-        stretch.report(static_cast<double>(pass + 1) / passes.count, context);
+        progress.report(static_cast<double>(pass + 1) / passes.count, context);
     }
     return left;
 }
@@ -249,7 +264,7 @@ SlidingQuads::State slide(SlidingQuads& sliding, double limit, int rounds, const
         sliding.release();
         sliding.hug_surface(limit, 0, context);
         sliding.cover_extremities(limit, context);
-        if (round < mending_interval) early = sliding.state();
+        if (is_for_squares && round < mending_interval) early = sliding.state();
     }
     return early;
 }
@@ -289,14 +304,15 @@ QuadMesh relax_quads(const QuadMesh& quads, const std::vector<RelaxView>& views,
                      const Topology& topology, const IntrinsicMetric& metric,
                      const RelaxOptions& options, const Context& context) {
     const auto start = [&](const QuadMesh& from, int frames) {
-        return start_sliding(from, sample_frames(views, frames, reference_share, options), views,
-                             topology, metric, options);
+        return start_sliding(from,
+                             sample_frames(views, evenly_chosen(frames), reference_share, options),
+                             views, topology, metric, options);
     };
     std::optional<SlidingQuads> sliding(start(quads, options.sampled_frames));
     const double limit = options.distance_limit * sliding->mean_edge_length();
     const SlidingQuads::State early = slide(*sliding, limit, options.rounds, context);
     fit_surface(*sliding, limit, context);
-    const GapOptions gaps{options.gap_limit, false, options.drags_patches};
+    const GapOptions gaps{.limit = options.gap_limit, .drags_patches = options.drags_patches};
     const auto bring_together = [&](int rounds, double begin, double end) {
         const GapsLeft left =
             settle(*sliding, limit, {rounds}, gaps, {"relaxation", begin, end}, context);
@@ -342,8 +358,11 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     // at first, when most moves.
     const double frames_per_shaped = sliding->frames_per_shaped();
     const auto gaps_within = [&](double gap_limit, double weight) {
-        return GapOptions{gap_limit, true, options.drags_patches, weight * frames_per_shaped,
-                          longest_stretch};
+        return GapOptions{.limit = gap_limit,
+                          .every_frame_counts = true,
+                          .drags_patches = options.drags_patches,
+                          .shape_weight = weight * frames_per_shaped,
+                          .most_stretch = longest_stretch};
     };
     const auto share_of_far = [&](const GapsLeft& left) {
         const auto far = std::count_if(left.at_quads.begin(), left.at_quads.end(),
@@ -376,7 +395,8 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
         }
     }
     context.report_progress("settling", closed_share);
-    // Lengths of edges are those of now from here on.
+    // Lengths of edges are those of now from here on; they have hardly changed in the mean, and
+    // `farthest` is taken as if they had not.
     const QuadMesh closed = sliding->quads();
     sliding.reset();
     sliding.emplace(start(closed));

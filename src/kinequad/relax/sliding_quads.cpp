@@ -257,6 +257,12 @@ double SlidingQuads::watched_distance(int v) const {
     return farthest;
 }
 
+/// Length of the first side of the first quad at `v` in the first reference: a size of steps there.
+double SlidingQuads::first_side_length(int v) const {
+    const Positions& X = frames_[0].vertices;
+    return (X.row(neighbour(*corners_of(v).begin(), 1)) - X.row(v)).norm();
+}
+
 /// Length of the shortest edge at `v` in the first reference.
 double SlidingQuads::shortest_edge(int v) const {
     const Positions& X = frames_[0].vertices;
@@ -297,9 +303,7 @@ double SlidingQuads::longest_edge(int v) const {
 bool SlidingQuads::improve(int v, Aim aim, double distance_limit) {
     const Vector2 move = aim == Aim::squares ? move_to_squares(v) : move_to_right_angles(v);
     const SurfacePoint before = quads_.vertex[at(v)];
-    const Positions& X = frames_[0].vertices;
-    const double size = (X.row(neighbour(*corners_of(v).begin(), 1)) - X.row(v)).norm();
-    if (!move.allFinite() || move.norm() < least_move * size) return false;
+    if (!move.allFinite() || move.norm() < least_move * first_side_length(v)) return false;
     const double cost_before = relaxing_cost(v);
     const double allowed = std::max(distance_limit, watched_distance(v));
     const double least = std::min(least_jacobian_around(v), least_kept_jacobian);

@@ -47,10 +47,12 @@ struct GapOptions {
     /// Quads and input are brought together where they are farther apart than most of this, in mean
     /// lengths of the quads' edges.
     double limit = 0.45;
-    /// Whether distances below `roughly_near_share` are not told apart, nor which of several quads
-    /// as near as that is the nearest, while what is far is looked at more closely and counts by
-    /// its sixteenth power, not its eighth: for many frames, each of which is to be close.
-    bool is_rough = false;
+    /// Whether each of many frames is to be close. What is far then counts by its sixteenth power,
+    /// not its eighth, and is looked at more closely: inside quads and, with more points, on the
+    /// input; and a place that turns out no better in all frames is looked for again. In turn,
+    /// distances below `roughly_near_share`, not `near_share`, are not told apart, nor, at the
+    /// first look, which of several quads as near as that is the nearest.
+    bool every_frame_counts = false;
     /// Whether patches move as one where no vertex alone brings the two closer.
     bool drags_patches = false;
     /// What the shape of quads, mean over the frames with a weight, counts beside the sum of the
@@ -60,8 +62,8 @@ struct GapOptions {
     /// weight, in mean lengths.
     double most_stretch = kinequad::most_stretch;
     /// Whether of all quads that are far those alone are looked at that are the farthest in some
-    /// frame, and again until none of these comes closer: more closely than others, with patches
-    /// moving in more ways and vertices farther around taking part.
+    /// frame, and again until none of these comes closer, or after 32 rounds: more closely than
+    /// others, with patches moving in more ways and vertices farther around taking part.
     bool only_farthest = false;
 };
 
@@ -76,9 +78,9 @@ struct GapsLeft {
 /// stay; those that `cover_extremities` has put in place do until `release`.
 class SlidingQuads {
 public:
-    /// `F` m x 3 triangles of the input; the first `reference_count` of `frames`, at least one, are
-    /// references; frames without weight come last. `topology`, `metric` and `F` have to outlive
-    /// this.
+    /// `quads` that `verify_quad_mesh` finds valid; `F` m x 3 triangles of the input; the first
+    /// `reference_count` of `frames`, at least one, are references; frames without weight come
+    /// last. `topology`, `metric` and `F` have to outlive this.
     SlidingQuads(const QuadMesh& quads, const Topology& topology, const IntrinsicMetric& metric,
                  const Triangles& F, std::vector<SampledFrame> frames, int reference_count);
 
@@ -102,9 +104,9 @@ public:
     int relax_pass(Aim aim, double distance_limit, const Context& context);
 
     /// Tries moves of the vertices up to `reach` quads around every quad whose scaled Jacobian in
-    /// a reference is below `worst_jacobian`, and keeps what opens it towards `safe_jacobian`.
-    /// Returns the number of quads still folded there.
-    int unfold_pass(double worst_jacobian, double safe_jacobian, int reach, const Context& context);
+    /// a reference is below `safe_jacobian`, and keeps what opens it towards that. Returns the
+    /// number of quads still folded there.
+    int unfold_pass(double safe_jacobian, int reach, const Context& context);
 
     /// Distance between the two surfaces at every quad (q), at most over the references, in units
     /// of the input: seen from points of the quad, and from the vertices of the input that are
@@ -141,16 +143,16 @@ public:
     /// keep their vertices.
     void release();
 
-    /// Puts a quad vertex onto every vertex of the input that is farther than `limit` (units of the
-    /// input) from the quads in a reference and is no corner of what has been put in place
-    /// before. It stays there until `release`. Returns the number of vertices put in place.
+    /// Puts quad vertices onto vertices of the input that are farther than `limit` (units of the
+    /// input) from the quads in a reference, the farthest first, at most one a quad: none on the
+    /// boundary but on lines, and none where a quad would get too slanted or an edge too long. They
+    /// stay there until `release`. Returns the number of vertices put in place.
     int cover_extremities(double limit, const Context& context);
 
     /// Tries moves of the vertices up to `reach` quads around quads whose inside or edges leave the
     /// surface by more than `limit` (units of the input) in a reference, as where they bridge a
-    /// crease, and keeps what brings them closer. Returns the number of quads that stay farther
-    /// away.
-    int hug_surface(double limit, int reach, const Context& context);
+    /// crease, and keeps what brings them closer.
+    void hug_surface(double limit, int reach, const Context& context);
 
     /// Brings quads and input together in all frames: vertices where the two are far apart search
     /// for places that are closer in all frames and hardly cost angles; where that is not enough,
@@ -224,6 +226,7 @@ private:
     Vector2 move_to_right_angles(int v) const;
     double least_jacobian_of(int quad) const;
     SurfacePoint walked(int v, const SurfacePoint& start, const Vector2& move) const;
+    double first_side_length(int v) const;
     double shortest_edge(int v) const;
     double least_edge_at(int v) const;
     double longest_edge(int v, const Frame& frame) const;

@@ -59,7 +59,7 @@ TriangleMesh with_hole(int n, const Vector3& centre, double radius) {
 
 /// Wherever a quad leaves the input, that is found, whether samples show some of it (0 to 3) or, in
 /// the middle of a half, none (4 to 7).
-TEST(CloseGaps, FindsTheFarthestPlaceInsideAQuadWhenRough) {
+TEST(CloseGaps, FindsTheFarthestPlaceInsideAQuadWhereEveryFrameCounts) {
     constexpr int samples = 50;
     std::mt19937 random(3);
     std::uniform_real_distribution<double> place(0.36, 0.64);
@@ -93,42 +93,61 @@ TEST(CloseGaps, FindsTheFarthestPlaceInsideAQuadWhenRough) {
     }
 }
 
+/// A flat grid without the quads within `radius` of `middle`, and how far that is from the rest.
+std::pair<Grid, double> with_disc_left_out(const Grid& grid, const Vector3& middle, double radius) {
+    Grid holed = grid;
+    Eigen::Index left = 0;
+    for (Eigen::Index q = 0; q < grid.quads.Q.rows(); ++q) {
+        const QuadCorners p = grid.corners(grid.quads, grid.mesh.V, q);
+        if (((p[0] + p[2]) / 2 - middle).norm() < radius) continue;
+        holed.quads.Q.row(left++) = grid.quads.Q.row(q);
+    }
+    holed.quads.Q.conservativeResize(left, 4);
+    Positions places(static_cast<Eigen::Index>(holed.quads.vertex.size()), 3);
+    for (Eigen::Index v = 0; v < places.rows(); ++v) {
+        places.row(v) =
+            position_of(holed.quads.vertex[static_cast<std::size_t>(v)], grid.mesh.V, grid.mesh.F);
+    }
+    const ClosestPoints quads(places, cut_quads(holed.quads.Q, places));
+    return {holed, std::sqrt(quads.find(middle).squared_distance)};
+}
+
+/// The largest distance that closing gaps finds, where hardly anything can move.
+double found_beside(const Grid& grid, GapOptions options) {
+    SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+    const double unit = options.limit * sliding.mean_edge_length();
+    return unit * largest(sliding.close_gaps(options, {}).at_quads);
+}
+
 /// Where the farthest alone are looked at, so is the place of the input that is farthest from the
 /// quads, inside a triangle: whether its corners are far, too, or only points on its edges.
 TEST(CloseGaps, FindsTheFarthestPlaceInsideATriangleOfTheInput) {
-    Grid grid(landscape(8, flat), 40, 0);
+    const Grid grid(landscape(8, flat), 40, 0);
     for (const auto& [radius, limit] : {std::pair{0.2, 4.0}, {0.06, 1.0}}) {
         for (const Eigen::Index t : {53, 54, 72, 73}) {
             Vector3 middle = Vector3::Zero();
             for (const int v : grid.mesh.F.row(t)) middle += grid.mesh.V.row(v).transpose() / 3;
-            // The quads leave out a disc there, whose rim stays.
-            Grid holed = grid;
-            Eigen::Index left = 0;
-            for (Eigen::Index q = 0; q < grid.quads.Q.rows(); ++q) {
-                const QuadCorners p = grid.corners(grid.quads, grid.mesh.V, q);
-                if (((p[0] + p[2]) / 2 - middle).norm() < radius) continue;
-                holed.quads.Q.row(left++) = grid.quads.Q.row(q);
-            }
-            holed.quads.Q.conservativeResize(left, 4);
-            Positions places(static_cast<Eigen::Index>(holed.quads.vertex.size()), 3);
-            for (Eigen::Index v = 0; v < places.rows(); ++v) {
-                places.row(v) = position_of(holed.quads.vertex[static_cast<std::size_t>(v)],
-                                            grid.mesh.V, grid.mesh.F);
-            }
-            const ClosestPoints quads(places, cut_quads(holed.quads.Q, places));
-            const double farthest = std::sqrt(quads.find(middle).squared_distance);
-            SlidingQuads sliding = holed.sliding({{grid.mesh.V, 1}});
-            const double unit = limit * sliding.mean_edge_length();
+            const auto [holed, farthest] = with_disc_left_out(grid, middle, radius);
             const GapOptions options{
                 .limit = limit, .every_frame_counts = true, .only_farthest = true};
-            EXPECT_NEAR(unit * largest(sliding.close_gaps(options, {}).at_quads), farthest, 0.012)
+            EXPECT_NEAR(found_beside(holed, options), farthest, 0.012)
                 << t << " with a radius of " << radius;
         }
     }
 }
 
+/// Also on an edge of the input that is as long as forty of the quads.
+TEST(CloseGaps, FindsTheFarthestPlaceOnALongEdgeOfTheInput) {
+    const Grid grid(landscape(1, flat), 40, 0);
+    for (const double share : {3.0 / 16, 5.0 / 16, 9.0 / 16, 0.44, 0.7}) {
+        const auto [holed, farthest] = with_disc_left_out(grid, Vector3(share, 0, 0), 0.06);
+        EXPECT_NEAR(found_beside(holed, {.limit = 1, .every_frame_counts = true}), farthest, 0.022)
+            << share;
+    }
+}
+
 /// What is near is told apart less well, but what is far is as far.
-TEST(CloseGaps, TellsFarPlacesAsWellWhenRough) {
+TEST(CloseGaps, TellsFarPlacesAsWellWhereEveryFrameCounts) {
     int tip = -1;
     const Grid grid = spiked(&tip);
     SlidingQuads exact = grid.sliding({{grid.mesh.V, 1}});

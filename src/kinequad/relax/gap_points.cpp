@@ -16,7 +16,7 @@ namespace {
 /// that are close to one another there are at most, over all frames.
 constexpr double spacing = 0.7;
 constexpr double close_spacing = 0.35;
-constexpr std::size_t most_close_points = 2'000'000;
+constexpr std::size_t most_close_points = 3'000'000;
 
 /// Between points inside triangles, in mean lengths of the quads' edges, and how far, in units, a
 /// corner or a point of an edge at one is from the quads where there are any.
@@ -24,8 +24,10 @@ constexpr double inner_spacing = 0.12;
 constexpr double worth_points_inside = 0.7;
 
 /// Edges of the input and sides of its triangles are parted into at most so many pieces, however
-/// long they are.
-constexpr double most_parts = 8;
+/// long they are: fewer where points would be too many otherwise, as of a fine input with a few
+/// long edges.
+constexpr int most_parts_of_few = 32;
+constexpr int most_parts_of_many = 8;
 
 /// Where what is far asks for more points than this, over all frames, there are none but those that
 /// are there anyway, so that memory stays within bounds.
@@ -43,10 +45,14 @@ void SlidingQuads::Gaps::choose_points() {
     const std::vector<char> all(at(topology.vertex_count), 1);
     const std::size_t vertices = points_.size();
     if (every_frame_counts_) {
-        choose_points_on_edges(close_spacing, all);
-        if (points_.size() * sliding_.frames_.size() <= most_close_points) return;
-        points_.resize(vertices);
+        for (const int parts : {most_parts_of_few, most_parts_of_many}) {
+            most_parts_ = parts;
+            choose_points_on_edges(close_spacing, all);
+            if (points_.size() * sliding_.frames_.size() <= most_close_points) return;
+            points_.resize(vertices);
+        }
     }
+    most_parts_ = most_parts_of_many;
     choose_points_on_edges(spacing, all);
     has_close_points_ = false;
 }
@@ -78,7 +84,7 @@ std::vector<char> SlidingQuads::Gaps::vertices_beyond(double distance) const {
 }
 
 /// Points that part edges with an end in `is_wanted` (v) into equal pieces of at most `longest`
-/// mean lengths of the quads' edges in all frames, but into no more than `most_parts`.
+/// mean lengths of the quads' edges in all frames, but into no more than `most_parts_`.
 void SlidingQuads::Gaps::choose_points_on_edges(double longest,
                                                 const std::vector<char>& is_wanted) {
     const Topology& topology = sliding_.topology_;
@@ -92,7 +98,8 @@ void SlidingQuads::Gaps::choose_points_on_edges(double longest,
             const double here = (frame.input.row(a) - frame.input.row(b)).norm();
             length = std::max(length, here / frame.mean_edge);
         }
-        const int parts = static_cast<int>(std::min(most_parts, std::ceil(length / longest)));
+        const int parts =
+            static_cast<int>(std::min<double>(most_parts_, std::ceil(length / longest)));
         for (int i = 1; i < parts; ++i) {
             points_.push_back({a, b, a, static_cast<double>(i) / parts, 0});
         }
@@ -101,7 +108,7 @@ void SlidingQuads::Gaps::choose_points_on_edges(double longest,
 
 /// Points that part triangles with a corner in `is_wanted` (v) into ones with sides of at most
 /// `inner_spacing` mean lengths of the quads' edges in all frames, but sides into no more than
-/// `most_parts`.
+/// `most_parts_`.
 void SlidingQuads::Gaps::choose_points_inside(const std::vector<char>& is_wanted) {
     const Triangles& F = sliding_.F_;
     for (Eigen::Index t = 0; t < F.rows(); ++t) {
@@ -118,7 +125,7 @@ void SlidingQuads::Gaps::choose_points_inside(const std::vector<char>& is_wanted
             }
         }
         const int parts =
-            static_cast<int>(std::min(most_parts, std::ceil(longest / inner_spacing)));
+            static_cast<int>(std::min<double>(most_parts_, std::ceil(longest / inner_spacing)));
         for (int i = 0; i <= parts; ++i) {
             for (int j = 0; j <= parts - i; ++j) {
                 if (i == parts || j == parts || i + j == 0) continue;

@@ -124,6 +124,7 @@ private:
     double most_stretch_;
     double told_apart_;               ///< in mean lengths of edges
     bool every_frame_counts_;         ///< see `GapOptions`
+    int most_parts_ = 0;              ///< of an edge of the input, between points
     bool has_close_points_ = true;    ///< whether points on all edges are close to one another
     std::vector<InputPoint> points_;  ///< of the input
     std::vector<char> owns_side_;     ///< corner c: whether the side that begins there is looked at

@@ -163,6 +163,19 @@ TEST(CloseGaps, TellsFarPlacesAsWellWhereEveryFrameCounts) {
     }
 }
 
+TEST(MeanFarthest, IsTheHeightOfASpikeInEdgesAndMovesNothing) {
+    int tip = -1;
+    const Grid grid = spiked(&tip);
+    Positions bent = grid.mesh.V;
+    bent(tip, 2) = 0;
+    // The spike is 0.12 high, quads are a sixth wide.
+    SlidingQuads sliding = grid.sliding({{grid.mesh.V, 1}});
+    EXPECT_NEAR(sliding.mean_farthest({}), 0.72, 1e-9);
+    EXPECT_EQ(sliding.quads().vertex, grid.quads.vertex);
+    EXPECT_NEAR(grid.sliding({{grid.mesh.V, 1}, {bent, 0}}).mean_farthest({}),
+                (0.72 + near_share) / 2, 1e-9);
+}
+
 TEST(CloseGaps, CountsTheFarthestOfEveryFrame) {
     int tip = -1;
     const Grid grid = spiked(&tip);

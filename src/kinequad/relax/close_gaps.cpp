@@ -168,13 +168,23 @@ bool SlidingQuads::drag(int v, const std::vector<double>& following_shares, Gaps
         around, move_to_best, [&] { patch.put_back(); }, context);
 }
 
+/// Makes closest points on the input known in all frames.
+void SlidingQuads::find_surfaces(const Context& context) {
+    parallel_for(frames_.size(), 1, context, [&](std::size_t f, std::size_t) {
+        if (!frames_[f].surface) frames_[f].surface.emplace(frames_[f].input, F_);
+    });
+}
+
+double SlidingQuads::mean_farthest(const Context& context) {
+    find_surfaces(context);
+    return Gaps(*this, {.limit = 1}, context).mean_farthest();
+}
+
 GapsLeft SlidingQuads::close_gaps(const GapOptions& options, const Context& context) {
     const int rounds = options.only_farthest ? 32 : 8;
     constexpr double far_share = 0.8;
     release();
-    parallel_for(frames_.size(), 1, context, [&](std::size_t f, std::size_t) {
-        if (!frames_[f].surface) frames_[f].surface.emplace(frames_[f].input, F_);
-    });
+    find_surfaces(context);
     Gaps gaps(*this, options, context);
     const auto far_quads = [&] {
         return options.only_farthest ? gaps.farthest_quads() : gaps.quads_beyond(far_share);

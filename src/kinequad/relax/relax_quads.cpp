@@ -340,6 +340,7 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     constexpr double farthest_shape_weight = 1.8;
     constexpr double longest_stretch = 4;
     constexpr double longest_stretch_at_last = 5;
+    constexpr double closable_share = 0.7;
     constexpr double held_share = 0.85;
     constexpr double settled_share = 0.7;
     constexpr double closed_share = 0.8;
@@ -357,8 +358,8 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     // Where shapes count in fewer frames than distances do, they have to hold their own: above all
     // at first, when most moves.
     const double frames_per_shaped = sliding->frames_per_shaped();
-    const auto gaps_within = [&](double gap_limit, double weight) {
-        return GapOptions{.limit = gap_limit,
+    const auto gaps_within = [&](double unit, double weight) {
+        return GapOptions{.limit = unit,
                           .every_frame_counts = true,
                           .drags_patches = options.drags_patches,
                           .shape_weight = weight * frames_per_shaped,
@@ -373,18 +374,21 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     const auto grade = [&](double farthest) {
         return std::sqrt(sliding->shape_cost()) * std::pow(farthest, weight_of_distance);
     };
+    // Where quads are too far away for all to come close, those that do not would outweigh shapes.
+    const double gap_limit =
+        std::max(options.gap_limit, closable_share * sliding->mean_farthest(context));
     const int between = std::max(1, options.watched_rounds / 3);
     const GapsLeft settled =
         settle(*sliding, limit, {options.watched_rounds, between, held_share, true},
-               gaps_within(options.gap_limit, shape_weight * frames_per_shaped),
+               gaps_within(gap_limit, shape_weight * frames_per_shaped),
                {"settling", 0, settled_share}, context);
     // In mean lengths of edges, the largest in a frame, mean over all frames.
-    double farthest = settled.mean_farthest * options.gap_limit;
+    double farthest = settled.mean_farthest * gap_limit;
     // Where nearly nothing is left, a lower limit is reached for.
     if (share_of_far(settled) <= few_far) {
         const double settled_grade = grade(farthest);
         const SlidingQuads::State before = sliding->state();
-        const double closing_limit = tightening * options.gap_limit;
+        const double closing_limit = tightening * gap_limit;
         const GapsLeft left =
             sliding->close_gaps(gaps_within(closing_limit, shape_weight), context);
         const double closed_farthest = left.mean_farthest * closing_limit;
@@ -401,9 +405,8 @@ QuadMesh settle_in_more_frames(const QuadMesh& quads, const std::vector<RelaxVie
     sliding.reset();
     sliding.emplace(start(closed));
     // The farthest place of a frame says how close it is; these are few.
-    GapOptions at_farthest =
-        gaps_within(std::max(farthest_share * farthest, least_limit_share * options.gap_limit),
-                    farthest_shape_weight);
+    GapOptions at_farthest = gaps_within(
+        std::max(farthest_share * farthest, least_limit_share * gap_limit), farthest_shape_weight);
     at_farthest.only_farthest = true;
     // Twice: what moves may leave the input between the points that were looked at, and what stays
     // may lie beside edges of the input that no shorter quad lets it come close to.

@@ -160,6 +160,10 @@ public:
     /// then.
     GapsLeft close_gaps(const GapOptions& options, const Context& context);
 
+    /// The largest distance between quads and input in a frame, mean over all frames, in mean
+    /// lengths of the quads' edges; distances below `near_share` count as that.
+    double mean_farthest(const Context& context);
+
     /// The cost of all quads over the frames with a weight, without that of spacing.
     double shape_cost() const;
 
@@ -245,6 +249,7 @@ private:
     double distance_of(int quad, double least_told = 0) const;
     bool is_near(int quad);
     void place(int v, const SurfacePoint& point);
+    void find_surfaces(const Context& context);
     void link_corners();
     void pin_boundary();
 

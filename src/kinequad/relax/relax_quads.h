@@ -32,7 +32,8 @@ struct RelaxOptions {
     /// quad vertex of their own while quads slide: finger tips, ears. At last `gap_limit` counts.
     double distance_limit = 0.4;
     /// At last quads and input are brought closer together where they are farther apart than most
-    /// of this in any sampled frame, in edge lengths of the quads.
+    /// of this in any sampled frame, in edge lengths of the quads. `settle_in_more_frames` takes
+    /// more where quads are so far away that most could not come as close.
     double gap_limit = 0.45;
     /// Whether patches of quads move as one there, where no vertex alone brings them closer.
     bool drags_patches = false;
